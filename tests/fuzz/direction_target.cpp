@@ -140,7 +140,7 @@ Vec3 take_direction(ByteSource& bytes) {
   return norm(omega) > 0 ? normalized(omega) : Vec3{0, 0, 1};
 }
 
-/// @throws InputError for invalid scenes, such as with an outline that crosses itself
+/// @throws InputError for invalid scenes, such as without a face that has an area
 Case take_case(ByteSource& bytes) {
   Case made;
   made.omega = take_direction(bytes);

@@ -187,6 +187,9 @@ class Solves(unittest.TestCase):
         self.assertEqual(errors[worst], max(errors.values()))
         self.assertLessEqual(errors[worst], solution.accuracy["error"])
         self.assertLessEqual(solution.accuracy["error"], 0.05)
+        self.assertIsNone(solution.accuracy["obstacle"])
+        missed = transillum.solve(room(), accuracy="0.001%", first_shot="none", most_passes=100)
+        self.assertEqual(missed.accuracy["obstacle"], "passes")
         self.assertIsNone(transillum.solve(room(), directions=16).accuracy)
         self.assertIsNone(transillum.solve(room(), directions=16).surface_errors)
 

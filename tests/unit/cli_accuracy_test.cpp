@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "support/program_call.h"
 #include "transillum/files.h"
@@ -63,6 +65,24 @@ TEST(CliAccuracy, EndsWithTheTime) {
   const ProgramResult result = expect_success({"solve", "furnace", "--seconds", "0.2"});
   EXPECT_THAT(result.out,
               HasSubstr("within the time given, time is up: error of the worst surface, "));
+}
+
+TEST(CliAccuracy, SaysWhyItEnds) {
+  const TemporaryFolder folder;
+  const auto ends = [&](std::vector<std::string> arguments, const char* obstacle,
+                        const char* text) {
+    arguments.insert(arguments.begin(), "solve");
+    arguments.insert(arguments.end(), {"--stats", folder / "s.json"});
+    EXPECT_THAT(expect_success(arguments).out, HasSubstr(text));
+    EXPECT_EQ(read_json(folder / "s.json").at("accuracy").at("obstacle"), obstacle);
+  };
+  ends({"furnace", "--seconds", "60", "--most-passes", "40"}, "passes",
+       "within the time given, ended with at most 40 passes");
+  ends({"furnace", "--seconds", "0.2"}, "seconds", "time is up");
+  ends({"cornell-box", "--accuracy", "0.001%", "--most-passes", "100", "--first-shot", "none"},
+       "passes", "not reached with at most 100 passes");
+  ends({"cornell-box", "--accuracy", "0.000001%", "--first-shot", "0"}, "first-shot",
+       "not reached because the first shot is less accurate than asked");
 }
 
 TEST(CliAccuracy, OfEnginePairsTakesPoints) {

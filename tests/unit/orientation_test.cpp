@@ -241,8 +241,9 @@ TEST(OrientationPlan, NeverShowsMoreBacksThanTheFile) {
   const double before = backs_of(description);
   const OrientationReport report = orient(description);
   EXPECT_LE(backs_of(description), before + 0.01);
-  EXPECT_THAT(report.sentences,
-              ::testing::Contains(::testing::HasSubstr("kept as in the file, since more of")));
+  EXPECT_THAT(
+      report.sentences,
+      ::testing::Contains(::testing::HasSubstr("left mostly as in the file, since more of")));
 }
 
 /// Without light, closed components are solids, also where they overlap and see more backs.

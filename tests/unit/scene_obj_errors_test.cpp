@@ -179,7 +179,8 @@ TEST(ObjFile, FaceWithManyCornersNeitherHangsNorCrashes) {
     text += i % 3 == 0 ? " 1" : i % 3 == 1 ? " 2" : " 3";
   }
   EXPECT_THAT(test::refusal([&] { load_scene(folder.write("s.obj", text + "\n")); }),
-              HasSubstr("s.obj:4: face 0: no area; the scene has no patches"));
+              HasSubstr("s.obj:4: face 0: the outline crosses itself and cannot be split; "
+                        "the scene has no patches"));
 }
 
 TEST(ObjFile, LongLineOfGarbageNeitherHangsNorCrashes) {

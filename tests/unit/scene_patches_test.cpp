@@ -6,10 +6,13 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "geometry/convex_partition.h"
 #include "scene_test_support.h"
+#include "support/refusal.h"
+#include "support/scenes.h"
 #include "transillum/at.h"
 
 namespace transillum::scene_patches_test {
@@ -206,6 +209,42 @@ TEST(ScenePatches, SplitOutlinesThatCrossThemselves) {
     }
     expect_sound_pieces(scene);
   }
+}
+
+/// The first edge and the fourth cross, but are collinear to doubles: where they cross was 0/0.
+TEST(ScenePatches, SplitOutlinesWhoseEdgesCrossNearlyCollinearly) {
+  testing::Sketch sketch;
+  sketch.face({{0.07530366532695643, 0.02200122767307447, 0},
+               {0.26617294780469836, 0.0777668869056792, 0},
+               {0.9, 0.1629468752273268, 0},
+               {0.7967380704360125, 0.2327803780514496, 0},
+               {0.08929741293276827, 0.026089735526420566, 0},
+               {0.08444241688684884, 0.9, 0}},
+              sketch.material(0.5, 0));
+  sketch.face({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, 0);
+  const auto scene = sketch.scene();
+  for (const Vec3& p : scene->points()) {
+    EXPECT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+  }
+  EXPECT_GT(scene->patch_count(), 0);
+}
+
+/// A star with 19,700 crossings is not split; the message says why.
+TEST(ScenePatches, RemoveOutlinesThatCrossThemselvesTooOften) {
+  testing::Sketch sketch;
+  std::vector<Vec3> star;
+  for (int k = 0; k < 201; ++k) {
+    const double angle = 2 * std::numbers::pi * 99 * k / 201;
+    star.push_back({std::cos(angle), std::sin(angle), 0});
+  }
+  sketch.face(star, sketch.material(0.5, 0));
+  EXPECT_THAT(
+      test::refusal([&] { sketch.scene(); }),
+      HasSubstr("the outline crosses itself and cannot be split; the scene has no patches"));
+  sketch.face({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, 0);
+  const auto scene = sketch.scene();
+  EXPECT_EQ(scene->patch_count(), 1);
+  EXPECT_EQ(scene->report().removed_degenerate, 1);
 }
 
 TEST(ScenePatches, CountOutlinesThatCrossThemselves) {

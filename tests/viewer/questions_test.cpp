@@ -141,7 +141,7 @@ class QuestionsTest : public QObject {
     QVERIFY(room.text("question_result").contains("Not this time"));
     const double steps_of_patch = room.box->solved()->value;
     QVERIFY(room.text("question_result")
-                .contains(QString("Your choice is %1 times this.")
+                .contains(QString("Your choice is %1 times the computed value.")
                               .arg(QString::number(2 / steps_of_patch, 'g', 2))));
     const QScrollBar* bar =
         room.window->findChild<QTextBrowser*>("lesson_text")->verticalScrollBar();
@@ -268,7 +268,7 @@ class QuestionsTest : public QObject {
     QVERIFY(wait_for([&] { return room.box->solved() != nullptr; }));
     QVERIFY(room.text("question_result").contains("Not this time"));
     QVERIFY(room.text("question_result").contains("100 %"));
-    QVERIFY(room.text("question_result").contains("Your number is 0.8 times this."));
+    QVERIFY(room.text("question_result").contains("Your number is 0.8 times the computed value."));
     room.action("question_reveal")->trigger();
     // The number has a decimal comma.
     QTest::keyClicks(number, "104,5");
@@ -474,9 +474,9 @@ class QuestionsTest : public QObject {
       room.action("question_reveal")->trigger();
       return result;
     };
-    QVERIFY(guess("1.001").contains("times this. This is the area over itself."));
+    QVERIFY(guess("1.001").contains("times the computed value. This is the area over itself."));
     QVERIFY(guess("1.015").endsWith("This is more."));
-    QVERIFY(guess("3").endsWith("times this."));
+    QVERIFY(guess("3").endsWith("times the computed value."));
   }
 
   void a_failure_is_told_by_reveal() {

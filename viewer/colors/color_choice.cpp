@@ -24,11 +24,15 @@ bool needs_light(Quantity quantity) {
          quantity == Quantity::last_change || quantity == Quantity::jump;
 }
 
-/// Whether a quantity has no values yet because lobes reflect at the end of an iteration.
+/// Whether a quantity has no values yet because lobes reflect at the end of an iteration, and no
+/// light is known from before, or by a first shot.
 bool waits_for_lobes(Quantity quantity, const SolverSnapshot& snapshot) {
   const bool reflected = quantity == Quantity::radiosity || quantity == Quantity::irradiance ||
                          quantity == Quantity::eye_radiance;
-  return reflected && snapshot.glossy && snapshot.progress.iteration == 0 && !snapshot.of_draft;
+  return reflected && snapshot.glossy && snapshot.progress.iteration == 0 && !snapshot.of_draft &&
+         !snapshot.of_file &&
+         std::all_of(snapshot.irradiance.begin(), snapshot.irradiance.end(),
+                     [](const Rgb& h) { return max_abs(h) == 0; });
 }
 
 /// Candidates and exact queries of the selected patch, and their reason.

@@ -36,8 +36,9 @@ QString text_of_choice(const Question& question, const Solved& solved, int choic
     return ' ' + tr("One of the others is right.");
   }
   return question.rule == Question::Rule::nearest && solved.value != 0
-             ? ratio_text(QT_TRANSLATE_NOOP("ResultText", "Your choice is %1 times this."),
-                          value / solved.value)
+             ? ratio_text(
+                   QT_TRANSLATE_NOOP("ResultText", "Your choice is %1 times the computed value."),
+                   value / solved.value)
              : ' ' + tr("Your choice has %1.").arg(value_text(question, value));
 }
 
@@ -52,7 +53,7 @@ QString told_reason(const Question& question, const Solved& solved, const GivenA
     for (std::size_t k = 0; k < question.choices.size(); ++k) {
       const double value = at(solved.values, k);
       const double difference = std::abs(*answer.number - value);
-      if (difference <= nearest * std::abs(value)) {
+      if (value != 0 && difference <= nearest * std::abs(value)) {
         nearest = difference / std::abs(value);
         reason = &at(question.choices, k).reason;
       }
@@ -77,7 +78,8 @@ QString reason_text(const Question& question, const Solved& solved, const GivenA
   }
   if (question.kind == Question::Kind::number) {
     return (solved.value != 0
-                ? ratio_text(QT_TRANSLATE_NOOP("ResultText", "Your number is %1 times this."),
+                ? ratio_text(QT_TRANSLATE_NOOP("ResultText",
+                                               "Your number is %1 times the computed value."),
                              *answer.number / solved.value)
                 : QString()) +
            told_reason(question, solved, answer);

@@ -40,7 +40,8 @@ QString error_name(const AccuracyReport& report, int longest_name) {
 // The text on a finished solve with a goal.
 QString accuracy_text(const AccuracyReport& report, int longest_name) {
   const QString passes = count_text(report.passes_made), error = error_name(report, longest_name);
-  if (report.goal.accuracy == 0) {
+  if (report.goal.accuracy == 0 &&
+      (report.obstacle == AccuracyObstacle::none || report.obstacle == AccuracyObstacle::seconds)) {
     return ProgressLine::tr("Time is up: %1 at most %2 after %3 passes")
         .arg(error, percent(report.error), passes);
   }

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <QDockWidget>
 #include <QWidget>
 
 namespace transillum::viewer {
@@ -12,7 +13,15 @@ class Unpainted {
   explicit Unpainted(QWidget& window) : window_(window), before_(window.updatesEnabled()) {
     window_.setUpdatesEnabled(false);
   }
-  ~Unpainted() { window_.setUpdatesEnabled(before_); }
+  ~Unpainted() {
+    window_.setUpdatesEnabled(before_);
+    // Qt omits panels that have become windows of their own meanwhile.
+    for (QDockWidget* panel : window_.findChildren<QDockWidget*>()) {
+      if (before_ && panel->isWindow()) {
+        panel->setUpdatesEnabled(true);
+      }
+    }
+  }
   Unpainted(const Unpainted&) = delete;
   Unpainted& operator=(const Unpainted&) = delete;
 

@@ -227,6 +227,7 @@ Solution solve_by_pairs_to(const AccuracyGoal& goal, const SolveJob& job) {
   report.stages.push_back({pairs.points, 1, pairs.error});
   report.error = pairs.error;
   report.reached = pairs.reached;
+  report.obstacle = pairs.reached ? AccuracyObstacle::none : AccuracyObstacle::directions;
   report.trusted = true;
   pairs.solution.accuracy = report;
   return std::move(pairs.solution);

@@ -127,9 +127,10 @@ std::string obstacle_text(const AccuracyReport& report) {
     case AccuracyObstacle::passes:
       return fmt::format(" with at most {} passes", report.goal.passes);
     case AccuracyObstacle::directions:
-      return " with as many directions as are possible";
+      return fmt::format(" with as many {} as are possible",
+                         report.passes_made == 0 ? "points" : "directions");
     case AccuracyObstacle::first_shot:
-      return " because the first shot is not as accurate past what stands before the lamps";
+      return " because the first shot is less accurate than asked where lamps are partly hidden";
     case AccuracyObstacle::stalled:
       return " because more directions do not decrease the error";
     case AccuracyObstacle::no_light:
@@ -142,9 +143,12 @@ std::string accuracy_text(const AccuracyReport& report) {
   const AccuracyGoal& goal = report.goal;
   const std::string asked = goal.accuracy > 0 ? fmt::format("{:.3g} % asked", 100 * goal.accuracy)
                                               : "within the time given";
-  const std::string reached = report.reached      ? "reached"
-                              : goal.accuracy > 0 ? "not reached" + obstacle_text(report)
-                                                  : "time is up";
+  const bool is_late = goal.accuracy == 0 && (report.obstacle == AccuracyObstacle::seconds ||
+                                              report.obstacle == AccuracyObstacle::none);
+  const std::string reached =
+      report.reached ? "reached"
+      : is_late      ? "time is up"
+                     : (goal.accuracy > 0 ? "not reached" : "ended") + obstacle_text(report);
   if (report.passes_made == 0) {  // engine pairs
     return report_row("accuracy",
                       fmt::format("{}, {}: estimated error {:.2g} %, {} points", asked, reached,

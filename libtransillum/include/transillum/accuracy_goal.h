@@ -71,7 +71,7 @@ enum class AccuracyObstacle {
   none,        ///< reached, or not finished
   seconds,     ///< AccuracyGoal::seconds are over
   passes,      ///< AccuracyGoal::passes allows no further stage
-  directions,  ///< a stage has as many directions as are possible, or as memory holds
+  directions,  ///< no more directions, or points of engine pairs, are possible
   first_shot,  ///< past blockers, the first shot is less accurate than the goal
   stalled,     ///< more directions have not decreased the error
   no_light,    ///< no direction has brought light to a patch that reflects

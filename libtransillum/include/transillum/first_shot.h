@@ -74,6 +74,8 @@ struct DirectLight {
   /// Estimated error of `irradiance`, W/m², one per patch: the error of partly hidden pairs, which
   /// are computed by points. Empty if unknown (with_materials()).
   std::vector<Rgb> irradiance_error = {};
+  /// ShotOptions::points by which the light of each patch was computed; empty if unknown.
+  std::vector<int> points = {};
   std::int64_t integrated_pairs = 0;  ///< SolveStatistics::integrated_pairs
   /// Linear terms of `irradiance`, W/m², one per patch; empty with Basis::constant.
   std::vector<LinearTerm> linear_terms = {};
@@ -116,8 +118,8 @@ DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources,
                   const ShotOptions& options = {}, const Cancellation& cancellation = {},
                   const std::function<void(double)>& progress = {});
 
-/// Shoots the sources of `light` at some patches again, by other options: of its sums,
-/// contributions, errors and pairs, theirs are replaced.
+/// Shoots the sources of `light` at some patches again, by other options: replaces the sums,
+/// contributions, errors and pairs of these patches.
 /// @param scene the scene of `light`.
 /// @param receivers patches, ascending.
 /// @param options as for shoot(), with the same basis.

@@ -60,7 +60,8 @@ struct OrientationPlan {
 /// surface that is alone. An open part that is seen nearly as much on both sides becomes two-sided,
 /// unless it emits, so that no light is doubled. Parts that nothing tells about keep the
 /// orientation of most of their area. Two faces on the same points that face opposite ways are
-/// kept. Changes after which more of what light meets would be backs are taken back.
+/// kept. Parts that cannot be oriented stay as they are if few of their backs are seen, else they
+/// become two-sided. Changes after which more of what light meets would be backs are taken back.
 ///
 /// Time: a few 10^6 rays at most for scenes of up to 10^5 components, linear in the components
 /// above. The result does not depend on the number of threads.

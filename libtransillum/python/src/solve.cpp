@@ -303,7 +303,9 @@ std::optional<py::dict> accuracy_of(const Solution& solution) {
   dict["reached"] = report.reached;
   dict["error"] = report.error;
   dict["surface"] = report.surface;
-  dict["obstacle"] = name_of(report.obstacle);
+  dict["obstacle"] = report.obstacle == AccuracyObstacle::none
+                         ? py::object(py::none())
+                         : py::object(py::str(name_of(report.obstacle)));
   dict["passes"] = report.passes_made;
   return dict;
 }

@@ -80,7 +80,8 @@ class Solution:
     @property
     def accuracy(self) -> Union[dict[str, Any], None]:
         """How a solve to an accuracy has ended; None without one: whether it was `reached`, the
-        `error`, the worst `surface` (empty where the error is of none) and `passes`."""
+        `error`, the worst `surface` (empty where the error is of none), `passes` and the
+        `obstacle` (`accuracy.obstacle` in FILES.md)."""
         return self._core.accuracy
 
     @property

@@ -176,7 +176,7 @@ AccuracyPlan::AccuracyPlan(const SolveOptions& options, const Scene& scene)
 }
 
 AccuracyPlan::Next AccuracyPlan::next(const StageResult& result, double seconds) {
-  const auto& [scene, solved, b, statistics, estimate, shot] = result;
+  const auto& [scene, solved, b, statistics, estimate, shot, preparing, shooting] = result;
   const AccuracyGoal& goal = report_.goal;
   report_.error = error_for(goal, scene, b, estimate);
   if (!std::isfinite(report_.error)) {  // replicas of few directions may diverge
@@ -193,13 +193,13 @@ AccuracyPlan::Next AccuracyPlan::next(const StageResult& result, double seconds)
   report_.reached = report_.trusted && report_.error <= goal.accuracy;
   const auto made = static_cast<double>(statistics.passes_made - passes_before_);
   // A caller that resumes may not know how long the solve took before.
-  const double per_pass = std::max(0.0, seconds - seconds_) / std::max(1.0, made);
+  const double per_pass = std::max(0.0, seconds - preparing - seconds_) / std::max(1.0, made);
   report_.passes_made += statistics.passes_made - passes_before_;
   passes_before_ = statistics.passes_made;
-  seconds_ = seconds;
+  seconds_ = seconds - preparing;
   const double left =
       goal.seconds > 0 ? goal.seconds - seconds : std::numeric_limits<double>::infinity();
-  if (report_.reached || (report_.error == 0 && !is_missed)) {
+  if (report_.reached) {
     return end(AccuracyObstacle::none);
   }
   if (is_missed && report_.error == 0) {
@@ -215,7 +215,7 @@ AccuracyPlan::Next AccuracyPlan::next(const StageResult& result, double seconds)
     if (solved.directions * per_pass <= time_fraction * left && asks_for_iterations(result)) {
       return again();
     }
-    if (const auto end_or_stage = refine_shot(result)) {
+    if (const auto end_or_stage = refine_shot(result, time_fraction * left)) {
       return *end_or_stage;
     }
   }
@@ -259,17 +259,30 @@ bool AccuracyPlan::asks_for_iterations(const StageResult& result) {
 }
 
 /// No number of passes makes the first shot more accurate.
+/// @param seconds_left for more shots
 /// @returns nothing where it is accurate enough
-std::optional<AccuracyPlan::Next> AccuracyPlan::refine_shot(const StageResult& result) {
+std::optional<AccuracyPlan::Next> AccuracyPlan::refine_shot(const StageResult& result,
+                                                            double seconds_left) {
   if (result.shot == nullptr) {
     return {};
   }
   const double goal = report_.goal.accuracy;
   const double error = error_of_bias(result, bias_of_shot(result.scene, surfaces_, *result.shot));
-  if (error > shot_fraction * goal && shot_points_.refine(patches_to_refine(result))) {
+  if (!(error > shot_fraction * goal)) {
+    return {};
+  }
+  const std::vector<PatchId> patches = patches_to_refine(result);
+  const double work = shot_points_.work_to_refine(patches);
+  const bool is_late =
+      std::isfinite(work) && result.seconds_first_shot * work > seconds_left * shot_points_.work();
+  if (std::isfinite(work) && !is_late) {
+    shot_points_.refine(patches);
     return again();
   }
-  return error > goal ? std::optional(end(AccuracyObstacle::first_shot)) : std::nullopt;
+  if (error > goal) {
+    return end(is_late ? AccuracyObstacle::seconds : AccuracyObstacle::first_shot);
+  }
+  return {};
 }
 
 AccuracyPlan::Next AccuracyPlan::end(AccuracyObstacle obstacle) {
@@ -286,26 +299,57 @@ double AccuracyPlan::error_of_bias(const StageResult& result, const std::vector<
   return error_for(report_.goal, result.scene, result.radiosity, missing);
 }
 
+std::optional<Rgb> AccuracyPlan::unit_of(const StageResult& result, PatchId patch) const {
+  const AccuracyGoal& goal = report_.goal;
+  switch (goal.of) {
+    case AccuracyOf::surfaces:
+    case AccuracyOf::groups:
+    case AccuracyOf::irradiance:
+      break;
+    case AccuracyOf::patch:
+      return patch == goal.patch ? std::optional(channel_units(at(result.radiosity, patch) -
+                                                               result.scene.exitance(patch)))
+                                 : std::nullopt;
+    case AccuracyOf::rms:
+    case AccuracyOf::max:
+    case AccuracyOf::mean:
+      return channel_units(result.error.mean_reflected);
+  }
+  const bool of_h = goal.of == AccuracyOf::irradiance;
+  const std::int32_t s = (of_h ? surfaces_.receiving : surfaces_.reflecting).of(patch);
+  if (s == Surfaces::none) {
+    return {};
+  }
+  const SurfaceError& surface =
+      at((of_h ? result.error.irradiance : result.error.surfaces).surfaces, s);
+  const bool counts =
+      goal.of != AccuracyOf::groups ||
+      std::find(goal.surfaces.begin(), goal.surfaces.end(), surface.name) != goal.surfaces.end();
+  return counts ? std::optional(surface.unit) : std::nullopt;
+}
+
 /// How much of the error of a result the direct light of each patch makes, up to a common factor:
-/// on its own surface, or by what it reflects to the surface with the least light.
+/// of its own, or by what it reflects to where light is least.
 std::vector<double> AccuracyPlan::shares_of_shot(const StageResult& result) const {
   const Scene& scene = result.scene;
-  const std::vector<SurfaceError>& surfaces = result.error.surfaces.surfaces;
-  const Rgb mean = channel_units(result.error.mean_reflected);
-  Rgb least = mean;
-  for (const SurfaceError& surface : surfaces) {
-    least = {std::min(least.r, surface.unit.r), std::min(least.g, surface.unit.g),
-             std::min(least.b, surface.unit.b)};
+  std::vector<std::optional<Rgb>> units;
+  Rgb least{HUGE_VAL, HUGE_VAL, HUGE_VAL};
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    units.push_back(unit_of(result, i));
+    if (const std::optional<Rgb>& unit = units.back()) {
+      least = {std::min(least.r, unit->r), std::min(least.g, unit->g), std::min(least.b, unit->b)};
+    }
   }
   const double area = total_area(scene);
+  const bool of_h = report_.goal.of == AccuracyOf::irradiance;
   std::vector<double> shares;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    const std::int32_t s = surfaces_.reflecting.of(i);
-    const Rgb rho =
-        report_.goal.of == AccuracyOf::irradiance ? Rgb{1, 1, 1} : at(surfaces_.reflectance, i);
+    const Rgb rho = at(surfaces_.reflectance, i);
+    const std::optional<Rgb>& unit = at(units, i);
     const auto share = [&](const Rgb& error) {
-      return std::max(largest_ratio(rho * error, s == Surfaces::none ? mean : at(surfaces, s).unit),
-                      scene.patch(i).area / area * largest_ratio(rho * error, least));
+      const double reflected = scene.patch(i).area / area * largest_ratio(rho * error, least);
+      return unit ? std::max(reflected, largest_ratio(of_h ? error : rho * error, *unit))
+                  : reflected;
     };
     double most = share(at(result.shot->irradiance_error, i));
     if (!result.shot->linear_term_errors.empty()) {
@@ -317,8 +361,8 @@ std::vector<double> AccuracyPlan::shares_of_shot(const StageResult& result) cons
   return shares;
 }
 
-/// The fewest patches whose direct light has to be more accurate: without their errors, that of the
-/// first shot is half of what the goal leaves to it.
+/// The patches with the largest shares, as few as leave the first shot an error of a quarter of the
+/// goal.
 std::vector<PatchId> AccuracyPlan::patches_to_refine(const StageResult& result) const {
   const std::vector<double> shares = shares_of_shot(result);
   std::vector<PatchId> order(shares.size());
@@ -365,7 +409,7 @@ double AccuracyPlan::growth() const {
   const auto before = std::find_if(stages.rbegin(), stages.rend(), [&](const AccuracyStage& stage) {
     return 2 * per_replica(stage) <= per_replica(last);
   });
-  if (!std::isfinite(last.error)) {
+  if (!std::isfinite(last.error) || last.error == 0) {
     return usual_growth;
   }
   double exponent = expected_exponent;

@@ -38,6 +38,8 @@ struct StageResult {
   SolveStatistics statistics;
   ErrorEstimate error;
   const DirectLight* shot = nullptr;  ///< null where it is unknown, or there is none
+  double seconds_preparing = 0;       ///< wall time of the tree and of all shots so far
+  double seconds_first_shot = 0;      ///< wall time of all shots
 };
 
 /// Chooses the stages of a solve with SolveOptions::goal. The caller makes each: a new solver with
@@ -94,7 +96,9 @@ class AccuracyPlan {
   Next end(AccuracyObstacle obstacle);
   Next again();
   bool asks_for_iterations(const StageResult& result);
-  std::optional<Next> refine_shot(const StageResult& result);
+  std::optional<Next> refine_shot(const StageResult& result, double seconds_left);
+  /// The light that errors of a patch are relative to; nothing where they do not count.
+  std::optional<Rgb> unit_of(const StageResult& result, PatchId patch) const;
   std::vector<double> shares_of_shot(const StageResult& result) const;
   std::vector<PatchId> patches_to_refine(const StageResult& result) const;
   Next grow(double factor, double by_time, double by_memory);
@@ -110,7 +114,7 @@ class AccuracyPlan {
   SolveOptions stage_;
   ShotPoints shot_points_;
   double light_directions_ = 0;     ///< per replica, in the last stage
-  double seconds_ = 0;              ///< at the end of the last stage
+  double seconds_ = 0;              ///< at the end of the last stage, without preparation
   std::int64_t passes_before_ = 0;  ///< made by the solver of the stage, before its last passes
 };
 

@@ -20,6 +20,7 @@
 #include "radiosity/norms.h"
 #include "radiosity/ratio.h"
 #include "radiosity/reflected_light.h"
+#include "radiosity/solver/solver_input.h"
 #include "scene/build/division.h"
 #include "scene/build/patch_count.h"
 #include "session/method_errors.h"
@@ -245,8 +246,15 @@ std::shared_ptr<const DirectLight> Measuring::shot_of(const DividedScene& divide
       sources.push_back(k);
     }
   }
-  return std::make_shared<const DirectLight>(
-      shoot(*divided.scene, sources, shot_options(solve_.options), cancellation_));
+  DirectLight shot = shoot(*divided.scene, sources, shot_options(solve_.options), cancellation_);
+  if (!solve_.shot->points.empty()) {
+    std::vector<int> points;
+    for (const PatchId parent : divided.parent) {
+      points.push_back(at(solve_.shot->points, parent));
+    }
+    shot = refined_shot(*divided.scene, solve_.options, shot, points, cancellation_);
+  }
+  return std::make_shared<const DirectLight>(std::move(shot));
 }
 
 void Measuring::measure_patches(std::int64_t most_patches) {

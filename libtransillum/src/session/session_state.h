@@ -6,7 +6,6 @@
 #include <chrono>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "session/accuracy_plan.h"
 #include "session/refinement_plan.h"
@@ -25,7 +24,6 @@ struct [[gnu::visibility("hidden")]] SolveSession::Impl {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const BspTree> tree;      ///< null: not built yet
   std::shared_ptr<const DirectLight> shot;  ///< null if there is none, or if it is not shot yet
-  std::vector<int> shot_points;             ///< by patch; empty: those of the options
   std::optional<AccuracyPlan> plan;         ///< plan for a goal
   std::optional<RunningSolver> solver;      ///< solver of the present stage; nothing: not prepared
   std::optional<AccuracyPlan::Next> next;   ///< after this stage, which has ended

@@ -2,6 +2,7 @@
 #include "session/shot_points.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "transillum/at.h"
 
@@ -18,26 +19,29 @@ ShotPoints::ShotPoints(const ShotOptions& options, std::size_t patches)
     : patches_(patches),
       usual_(options.points > 0 ? options.points : ShotOptions::default_points) {}
 
-bool ShotPoints::refine(const std::vector<PatchId>& patches) {
+std::vector<int> ShotPoints::refined(const std::vector<PatchId>& patches) const {
   std::vector<int> refined = points_.empty() ? std::vector<int>(patches_, usual_) : points_;
-  bool is_more = false;
   for (const PatchId i : patches) {
     int& points = at(refined, i);
-    const int more = std::min(more_points * points, EngineOptions::largest_points);
-    is_more = is_more || more > points;
-    points = std::max(points, more);
+    points = std::max(points, std::min(more_points * points, EngineOptions::largest_points));
   }
-  // The work of a patch grows as the square of the number of points in a row.
-  double work = 0;
-  for (const int points : refined) {
-    const double ratio = static_cast<double>(points) / usual_;
+  return refined;
+}
+
+/// The work of a patch grows as the square of the number of points in a row.
+double ShotPoints::work_of(const std::vector<int>& points) const {
+  double work = points.empty() ? static_cast<double>(patches_) : 0;
+  for (const int count : points) {
+    const double ratio = static_cast<double>(count) / usual_;
     work += ratio * ratio;
   }
-  if (!is_more || work > most_work * static_cast<double>(patches_)) {
-    return false;
-  }
-  points_ = std::move(refined);
-  return true;
+  return work / static_cast<double>(patches_);
+}
+
+double ShotPoints::work_to_refine(const std::vector<PatchId>& patches) const {
+  const double before = work(), after = work_of(refined(patches));
+  return after > before && after <= most_work ? after - before
+                                              : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace transillum

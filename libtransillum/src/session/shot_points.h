@@ -18,10 +18,13 @@ class ShotPoints {
 
   /// One per patch; empty until refine().
   const std::vector<int>& of_patches() const { return points_; }
+  /// The work of the shot, in units of the shot by the options.
+  double work() const { return work_of(points_); }
+  /// The work by which refine() would add to that; infinite where the patches have as many points
+  /// as are allowed, or the shot would take too much.
+  double work_to_refine(const std::vector<PatchId>& patches) const;
   /// Multiplies the points of some patches, up to EngineOptions::largest_points.
-  /// @returns false, with no change, where they have that many, or where the shot would take too
-  /// much work
-  bool refine(const std::vector<PatchId>& patches);
+  void refine(const std::vector<PatchId>& patches) { points_ = refined(patches); }
 
   template <class Archive, class Self>
   static void visit_state(Archive& archive, Self& self) {
@@ -32,6 +35,9 @@ class ShotPoints {
   }
 
  private:
+  std::vector<int> refined(const std::vector<PatchId>& patches) const;
+  double work_of(const std::vector<int>& points) const;
+
   std::size_t patches_;
   int usual_;
   std::vector<int> points_;

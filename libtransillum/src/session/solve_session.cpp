@@ -53,7 +53,6 @@ void SolveSession::Impl::begin(const std::shared_ptr<const Scene>& solved) {
   scene = solved;
   tree = scene == request.scene ? request.tree : nullptr;
   shot = scene == request.scene ? request.shot : nullptr;
-  shot_points.clear();
   seconds_bsp = seconds_first_shot = seconds_before = 0;
   if (called) {
     called = Clock::now();
@@ -80,7 +79,7 @@ void SolveSession::Impl::build_tree(const Cancellation& interruption) {
 void SolveSession::Impl::shoot_first(const Cancellation& interruption) {
   const SolveOptions& options = plan ? plan->stage() : request.options;
   const std::vector<int> points = plan ? plan->shot_points() : std::vector<int>();
-  if (!options.used_first_shot() || (shot && shot_points == points)) {
+  if (!options.used_first_shot() || (shot && (points.empty() || shot->points == points))) {
     return;
   }
   const auto start = Clock::now();
@@ -89,14 +88,12 @@ void SolveSession::Impl::shoot_first(const Cancellation& interruption) {
     report = [this](double fraction) { request.preparing(Preparation::first_shot, fraction); };
     report(0);
   }
-  if (!shot || points.empty()) {
+  if (!shot) {
     shot = std::make_shared<const DirectLight>(first_shot(*scene, options, interruption, report));
-    shot_points.clear();
   }
   if (!points.empty()) {
     shot = std::make_shared<const DirectLight>(
-        refined_shot(*scene, options, *shot, shot_points, points, interruption, report));
-    shot_points = points;
+        refined_shot(*scene, options, *shot, points, interruption, report));
   }
   seconds_first_shot += seconds_since(start);
 }
@@ -159,13 +156,16 @@ bool SolveSession::Impl::advance_stage(SolverUntil until, const std::function<bo
 bool SolveSession::Impl::begin_next() {
   if (plan && !next) {
     best = solver->solution();
-    next = plan->next({.scene = *scene,
-                       .options = solver->options(),
-                       .radiosity = best->radiosity,
-                       .statistics = best->statistics,
-                       .error = best->error,
-                       .shot = shot.get()},
-                      request.sums->from_first(seconds()));
+    next =
+        plan->next({.scene = *scene,
+                    .options = solver->options(),
+                    .radiosity = best->radiosity,
+                    .statistics = best->statistics,
+                    .error = best->error,
+                    .shot = shot.get(),
+                    .seconds_preparing = request.sums->from_first(seconds_bsp + seconds_first_shot),
+                    .seconds_first_shot = request.sums->from_first(seconds_first_shot)},
+                   request.sums->from_first(seconds()));
   }
   if (plan && next != AccuracyPlan::Next::done) {
     if (next == AccuracyPlan::Next::replica) {

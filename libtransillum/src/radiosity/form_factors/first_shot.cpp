@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "base/for_each_index.h"
+#include "base/part_of_progress.h"
 #include "radiosity/channel_sums.h"
 #include "radiosity/error_bounds.h"
 #include "radiosity/form_factors/pair_matrix.h"
@@ -119,7 +120,7 @@ class LinearTermSum {
   std::array<ErrorSum, 2> errors_;
 };
 
-double density_of(const ShotOptions& options) {
+int points_of(const ShotOptions& options) {
   return options.points > 0 ? options.points : ShotOptions::default_points;
 }
 
@@ -174,7 +175,7 @@ void receive(const Scene& scene, const ExchangeFinder& exchange, PatchId i, Shot
 void receive(const Scene& scene, const std::vector<PatchId>& receivers, const ShotOptions& options,
              const Cancellation& cancellation, const std::function<void(double)>& progress,
              IntegratedPairs& integrated, DirectLight& light) {
-  const ExchangeFinder exchange(scene, cancellation, density_of(options));
+  const ExchangeFinder exchange(scene, cancellation, points_of(options));
   WorkerThreads workers(thread_count(options.threads));
   ShotProgress shot(
       static_cast<double>(receivers.size()) * static_cast<double>(light.sources.size()),
@@ -251,7 +252,8 @@ DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources,
                     .exitance = std::vector<Rgb>(patches),
                     .sources = sources,
                     .contributions = empty_contributions(scene, sources, basis),
-                    .irradiance_error = std::vector<Rgb>(patches)};
+                    .irradiance_error = std::vector<Rgb>(patches),
+                    .points = std::vector<int>(patches, points_of(options))};
   if (basis == Basis::linear) {
     light.linear_terms.resize(patches);
     light.linear_term_errors.resize(patches);
@@ -281,7 +283,7 @@ std::vector<DirectLight::Pair> shoot_pairs(const Scene& scene, const std::vector
   if (sources.empty() || receivers.empty()) {
     return pairs;
   }
-  const ExchangeFinder exchange(scene, cancellation, density_of(options));
+  const ExchangeFinder exchange(scene, cancellation, points_of(options));
   WorkerThreads workers(thread_count(options.threads));
   ShotProgress shot(static_cast<double>(receivers.size()) * static_cast<double>(sources.size()),
                     cancellation, progress);
@@ -298,22 +300,33 @@ std::vector<DirectLight::Pair> shoot_pairs(const Scene& scene, const std::vector
 void shoot_again(const Scene& scene, const std::vector<PatchId>& receivers,
                  const ShotOptions& options, DirectLight& light, const Cancellation& cancellation,
                  const std::function<void(double)>& progress) {
-  IntegratedPairs counted{0};  // whole pairs, which `light` has counted
-  receive(scene, receivers, options, cancellation, progress, counted, light);
   const auto is_received = [&](PatchId i) {
     return std::binary_search(receivers.begin(), receivers.end(), i);
   };
   std::vector<PatchId> paired;
   std::copy_if(light.paired.begin(), light.paired.end(), std::back_inserter(paired), is_received);
+  const auto rows = static_cast<double>(receivers.size());
+  const double first = rows / (rows + static_cast<double>(paired.size()));
+  IntegratedPairs counted{0};  // whole pairs, which `light` has counted
+  receive(scene, receivers, options, cancellation, part_of_progress(progress, 0, first), counted,
+          light);
+  light.points.resize(light.irradiance.size());
+  for (const PatchId i : receivers) {
+    at(light.points, i) = points_of(options);
+  }
   std::vector<DirectLight::Pair> kept, again;
   std::copy_if(light.pairs.begin(), light.pairs.end(), std::back_inserter(kept),
                [&](const DirectLight::Pair& pair) { return !is_received(pair.receiver); });
-  again = shoot_pairs(scene, light.sources, paired, options, cancellation, progress);
+  again = shoot_pairs(scene, light.sources, paired, options, cancellation,
+                      part_of_progress(progress, first, 1 - first));
   light.pairs.clear();
   std::merge(kept.begin(), kept.end(), again.begin(), again.end(), std::back_inserter(light.pairs),
              [](const DirectLight::Pair& a, const DirectLight::Pair& b) {
                return a.receiver < b.receiver;
              });
+  if (progress) {
+    progress(1);
+  }
 }
 
 DirectLight with_materials(const DirectLight& light, const Scene& scene,

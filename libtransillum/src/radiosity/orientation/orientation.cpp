@@ -219,9 +219,24 @@ class Planner {
       }
       undo(undone, before, now.backs > before.all.backs);
     }
-    for (std::size_t p = 0; p < all.size(); ++p) {
-      undone_ += verdicts_[p] != all[p] ? 1 : 0;
+    count_undone(all);
+  }
+
+  /// Counts the components of which some faces would have been changed by other verdicts.
+  void count_undone(const std::vector<Verdict>& planned) {
+    set_faces(planned);
+    const std::vector<bool> turned = plan_.turned, two_sided = plan_.two_sided;
+    set_faces(verdicts_);
+    std::vector<char> is_undone(verdicts_.size());
+    for (PatchId i = 0; i < scene_.patch_count(); ++i) {
+      const std::int32_t component = at(components_.component, at(components_.first, i));
+      const auto face = static_cast<std::size_t>(scene_.patch(i).face);
+      if (component != ConnectedComponents::none &&
+          (turned[face] != plan_.turned[face] || two_sided[face] != plan_.two_sided[face])) {
+        at(is_undone, component) = 1;
+      }
     }
+    undone_ = std::count(is_undone.begin(), is_undone.end(), 1);
   }
 
   /// Takes back verdicts about single components of which the file shows the lit side.
@@ -394,7 +409,8 @@ class Planner {
     };
     if (undone_ > 0) {
       report.sentences.push_back(fmt::format(
-          "{} kept as in the file, since more of what light meets would be backs after a change",
+          "{} left mostly as in the file, since more of what light meets would be backs after a "
+          "change",
           counted(undone_, "part")));
     }
     if (!plan_.changes()) {
@@ -414,16 +430,20 @@ class Planner {
     }
     const std::vector<std::string> sentences = list.sentences();
     report.sentences.insert(report.sentences.end(), sentences.begin(), sentences.end());
-    std::int64_t two_sided = 0;
+    std::int64_t two_sided = 0, kept = 0;
     for (std::size_t p = 0; p < verdicts_.size(); ++p) {
-      two_sided +=
-          !components_.components[p].orientable && verdicts_[p] == Verdict::two_sided ? 1 : 0;
+      if (!components_.components[p].orientable) {
+        ++(verdicts_[p] == Verdict::two_sided ? two_sided : kept);
+      }
     }
-    if (two_sided > 0) {
-      report.sentences.push_back(
-          fmt::format("{} cannot be oriented, as a Moebius strip cannot: made two-sided",
-                      counted(two_sided, "part")));
-    }
+    const auto add = [&](std::int64_t parts, const char* what) {
+      if (parts > 0) {
+        report.sentences.push_back(fmt::format(
+            "{} cannot be oriented, as a Moebius strip cannot: {}", counted(parts, "part"), what));
+      }
+    };
+    add(two_sided, "made two-sided");
+    add(kept, "left as in the file, since few backs are seen");
   }
 
   const SceneDescription& description_;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/part_of_progress.h"
 #include "base/seconds_since.h"
 #include "base/worker_threads.h"
 #include "transillum/at.h"
@@ -53,36 +54,34 @@ DirectLight first_shot(const Scene& scene, const SolveOptions& options,
   // Light of pairs is computed twice, and takes so much of the time.
   const double all = scene.patch_count();
   const double first = all / (all + static_cast<double>(paired.size()));
-  const auto report_from = [&](double done, double owned) {
-    return progress ? std::function<void(double)>(
-                          [&progress, done, owned](double now) { progress(done + owned * now); })
-                    : std::function<void(double)>();
-  };
-  DirectLight light =
-      shoot(scene, sources, shot_options(options), cancellation, report_from(0, first));
+  DirectLight light = shoot(scene, sources, shot_options(options), cancellation,
+                            part_of_progress(progress, 0, first));
   light.pairs = shoot_pairs(scene, sources, paired, shot_options(options), cancellation,
-                            report_from(first, 1 - first));
+                            part_of_progress(progress, first, 1 - first));
   light.paired = paired;
   return light;
 }
 
 DirectLight refined_shot(const Scene& scene, const SolveOptions& options, const DirectLight& light,
-                         const std::vector<int>& before, const std::vector<int>& points,
-                         const Cancellation& cancellation,
+                         const std::vector<int>& points, const Cancellation& cancellation,
                          const std::function<void(double)>& progress) {
-  const ShotOptions usual = shot_options(options);
-  const int points_before = usual.points > 0 ? usual.points : ShotOptions::default_points;
   std::map<int, std::vector<PatchId>> receivers;
+  double work = 0, done = 0;
+  const auto work_of = [](int count) { return static_cast<double>(count) * count; };
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    if (at(points, i) != (before.empty() ? points_before : at(before, i))) {
+    if (light.points.empty() || at(points, i) != at(light.points, i)) {
       receivers[at(points, i)].push_back(i);
+      work += work_of(at(points, i));
     }
   }
   DirectLight refined = light;
   for (const auto& [count, of_count] : receivers) {
-    ShotOptions with_points = usual;
+    ShotOptions with_points = shot_options(options);
     with_points.points = count;
-    shoot_again(scene, of_count, with_points, refined, cancellation, progress);
+    const double share = work_of(count) * static_cast<double>(of_count.size()) / work;
+    shoot_again(scene, of_count, with_points, refined, cancellation,
+                part_of_progress(progress, done, share));
+    done += share;
   }
   return refined;
 }

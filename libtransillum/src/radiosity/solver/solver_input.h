@@ -28,14 +28,11 @@ DirectLight first_shot(const Scene& scene, const SolveOptions& options,
 
 /// Makes a first shot more accurate.
 /// @param light of first_shot() with the same scene and options
-/// @param before number of points by which the row of each patch was made; empty: those of the
-/// options
-/// @param points the same, wanted
+/// @param points DirectLight::points that are wanted
 /// @param progress as for shoot()
 /// @throws Canceled
 DirectLight refined_shot(const Scene& scene, const SolveOptions& options, const DirectLight& light,
-                         const std::vector<int>& before, const std::vector<int>& points,
-                         const Cancellation& cancellation,
+                         const std::vector<int>& points, const Cancellation& cancellation,
                          const std::function<void(double)>& progress = {});
 
 /// The input of a solve; constant while passes are made, so any thread may read it.

@@ -29,8 +29,9 @@ constexpr double largest_deviation_by_width = 1e-3;
 /// feature, however few digits there are.
 constexpr double largest_rounding_by_width = 0.02;
 constexpr std::size_t faces_between_cancellation_checks = 256;
-/// Most corners of a face of which all pairs of edges are searched for crossings.
-constexpr std::size_t most_crossing_corners = 2048;
+/// Most corners of a face of which all pairs of edges are searched for crossings, and most of
+/// those.
+constexpr std::size_t most_crossing_corners = 4096, most_crossings = 1000;
 
 CornerList all_corners(std::size_t n) {
   CornerList all(n);
@@ -164,6 +165,9 @@ void PatchBuilder::remove(std::size_t face) {
 
 std::string PatchBuilder::no_area_reason(std::size_t face) const {
   const std::size_t corners = description_.outline(face).size();
+  if (removed_crossing_.contains(face)) {
+    return "the outline crosses itself and cannot be split";
+  }
   if (corners >= 3) {
     return "no area";
   }
@@ -198,29 +202,47 @@ void PatchBuilder::add_triangles(std::size_t face, const Outline& outline,
   }
 }
 
-void PatchBuilder::add_crossing(std::size_t face, const Outline& outline, const Vec3& normal) {
-  Outline corners = outline;
-  std::vector<CornerList> triangles;
+/// Triangles by the even-odd rule, of an outline with its crossings as corners.
+/// @param corners the outline; the corners of the triangles are added
+std::vector<CornerList> PatchBuilder::triangles_of_crossing(Outline& corners, const Vec3& normal) {
   // Rounding may leave a crossing point beside an edge, where a third edge crosses it.
-  for (int round = 0; round < 4 && triangles.empty(); ++round) {
+  constexpr int most_rounds = 4;
+  for (int round = 0; round < most_rounds; ++round) {
+    cancellation_.throw_if_canceled();
     const std::vector<PlanePoint> plane = drop_axis(table.points(), corners, normal);
+    std::vector<CornerList> triangles;
     for (const auto& t : triangulate(plane)) {
       triangles.emplace_back(t.begin(), t.end());
     }
-    if (triangles.empty() && corners.size() <= most_crossing_corners) {
-      std::vector<Vec3> places;
-      for (const PointId p : corners) {
-        places.push_back(at(table.points(), p));
-      }
-      corners.clear();
-      for (const Vec3& p : with_crossings(places, plane)) {
-        corners.push_back(table.id_of(p));
-      }
+    if (!triangles.empty() || corners.size() > most_crossing_corners) {
+      return triangles;
+    }
+    std::vector<Vec3> places;
+    for (const PointId p : corners) {
+      places.push_back(at(table.points(), p));
+    }
+    const std::vector<Vec3> crossed = with_crossings(places, plane, most_crossings);
+    if (crossed.size() <= corners.size()) {
+      return {};
+    }
+    corners.clear();
+    for (const Vec3& p : crossed) {
+      corners.push_back(table.id_of(p));
     }
   }
+  return {};
+}
+
+void PatchBuilder::add_crossing(std::size_t face, const Outline& outline, const Vec3& normal) {
+  Outline corners = outline;
+  const std::vector<CornerList> triangles = triangles_of_crossing(corners, normal);
   warnings_.add("faces whose outlines cross themselves",
                 fmt::format("{}the outline crosses itself; {}", face_place(description_, face),
                             triangles.empty() ? "face removed" : "split into triangles"));
+  if (triangles.empty()) {
+    ++report.removed_degenerate;
+    removed_crossing_.insert(face);
+  }
   for (const CornerList& triangle : triangles) {
     const Outline part = pick(corners, triangle);
     if (const PolygonShape shape = measure(table.points(), part); !shape.degenerate) {

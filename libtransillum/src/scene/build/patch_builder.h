@@ -4,6 +4,7 @@
 // ones refined (SceneOptions::max_patch_area).
 #pragma once
 
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,6 +48,7 @@ class PatchBuilder {
   /// Splits a face that crosses itself into triangles, on the side of `normal`, by the even-odd
   /// rule; removes it if there are none.
   void add_crossing(std::size_t face, const Outline& outline, const Vec3& normal);
+  std::vector<CornerList> triangles_of_crossing(Outline& corners, const Vec3& normal);
   /// Adds a planar part of a face as one patch, or as many patches if it is to be refined.
   void add_part(std::size_t face, const Outline& outline, const PolygonShape& shape);
   void refine(std::size_t face, const Outline& outline, const std::vector<CornerList>& convex,
@@ -80,6 +82,7 @@ class PatchBuilder {
   double flatness_ = 0;          // deviation from a plane by the rounding of doubles, m
   double file_flatness_ = 0;     // by the rounding of the coordinates in a file, m; >= flatness_
   std::size_t last_refined_ = no_face;
+  std::set<std::size_t> removed_crossing_;  // faces that cross themselves and cannot be split
   Warnings warnings_;
 };
 

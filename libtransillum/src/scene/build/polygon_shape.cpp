@@ -84,8 +84,10 @@ bool is_bow_tie(std::span<const Vec3> points, std::span<const PointId> outline) 
   });
 }
 
-std::vector<Vec3> with_crossings(std::span<const Vec3> corners, std::span<const PlanePoint> plane) {
+std::vector<Vec3> with_crossings(std::span<const Vec3> corners, std::span<const PlanePoint> plane,
+                                 std::size_t most) {
   const std::size_t n = corners.size();
+  std::size_t count = 0;
   std::vector<std::vector<std::pair<double, Vec3>>> on_edge(n);
   for (std::size_t i = 0; i < n; ++i) {
     const PlanePoint &a = plane[i], &b = plane[(i + 1) % n];
@@ -96,8 +98,15 @@ std::vector<Vec3> with_crossings(std::span<const Vec3> corners, std::span<const 
         const auto height = [](const PlanePoint& p, const PlanePoint& q, const PlanePoint& r) {
           return std::abs((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]));
         };
-        const double s = height(c, d, a) / (height(c, d, a) + height(c, d, b));
-        const double t = height(a, b, c) / (height(a, b, c) + height(a, b, d));
+        // Edges that are collinear but for less than doubles resolve meet anywhere.
+        const auto fraction = [](double from, double to) {
+          return from + to > 0 ? from / (from + to) : 0.5;
+        };
+        const double s = fraction(height(c, d, a), height(c, d, b));
+        const double t = fraction(height(a, b, c), height(a, b, d));
+        if (++count > most) {
+          return {};
+        }
         const Vec3 crossing = corners[i] + s * (corners[(i + 1) % n] - corners[i]);
         on_edge[i].emplace_back(s, crossing);
         on_edge[j].emplace_back(t, crossing);

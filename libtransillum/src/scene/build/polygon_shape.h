@@ -27,9 +27,10 @@ PolygonShape measure(std::span<const Vec3> points, std::span<const PointId> outl
 bool is_bow_tie(std::span<const Vec3> points, std::span<const PointId> outline);
 
 /// The corners of an outline, and on both edges the points where two edges cross, on the first of
-/// them. O(n²).
+/// them; nothing where more than `most` edges cross. O(n²).
 /// @param plane the corners, projected to the plane of the outline
-std::vector<Vec3> with_crossings(std::span<const Vec3> corners, std::span<const PlanePoint> plane);
+std::vector<Vec3> with_crossings(std::span<const Vec3> corners, std::span<const PlanePoint> plane,
+                                 std::size_t most);
 
 /// Projects an outline to a plane by dropping the axis nearest to the normal: coordinates stay
 /// exact, and the result is counter-clockwise.

@@ -40,22 +40,10 @@ int side_of(const GridLine& line, const GridPoint& p) {
 
 }  // namespace
 
-NeedleLines::NeedleLines(const Scene& scene, const ProjectedFragments& projected)
-    : scene_(scene),
-      projected_(projected),
-      has_one_piece_(static_cast<std::size_t>(scene.patch_count())) {
-  std::vector<int> counts(has_one_piece_.size());
-  for (const Piece& piece : scene.pieces()) {
-    ++at(counts, piece.patch);
-  }
-  std::transform(counts.begin(), counts.end(), has_one_piece_.begin(),
-                 [](int count) { return static_cast<char>(count == 1); });
-}
-
 void NeedleLines::fill() {
   lines_.clear();
   const std::size_t count = projected_.fragments.size();
-  std::vector<char> is_thin_patch(has_one_piece_.size());
+  std::vector<char> is_thin_patch(static_cast<std::size_t>(scene_.patch_count()));
   std::size_t thin_ones = 0;
   for (std::size_t k = 0; k < count; ++k) {
     if (is_thin(projected_.boxes[k], projected_.fragments[k].area)) {
@@ -72,7 +60,7 @@ void NeedleLines::fill() {
       strips_[k] = strip_of(projected_.fragments[k]);
     }
   }
-  lines_.resize(has_one_piece_.size());
+  lines_.resize(is_thin_patch.size());
   for (PatchId i = 0; i < scene_.patch_count(); ++i) {
     if (at(is_thin_patch, i) != 0) {
       at(lines_, i) = lines_of(i);
@@ -110,7 +98,7 @@ NeedleLines::Strip NeedleLines::strip_of(const ProjectedFragments::Fragment& fra
 
 NeedleLines::Pair NeedleLines::lines_of(PatchId patch) const {
   const std::vector<GridPoint>& points = projected_.grid.points;
-  const std::span<const PointId> corners = corners_of(patch);
+  const std::span<const PointId> corners = scene_.outline(patch);
   Pair pair;
   std::array<double, 2> longest{};
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -158,8 +146,8 @@ bool NeedleLines::patches_are_apart(std::int32_t fragment) const {
 
 /// Whether a patch lies on the other side of a line than the patch of the pair.
 bool NeedleLines::separates(const Pair& pair, PatchId patch) const {
-  const std::span<const PointId> corners = corners_of(patch);
-  for (std::size_t m = 0; m < pair.lines.size() && !corners.empty(); ++m) {
+  const std::span<const PointId> corners = scene_.outline(patch);
+  for (std::size_t m = 0; m < pair.lines.size(); ++m) {
     const int side = pair.sides[m];
     if (side != 0 && std::all_of(corners.begin(), corners.end(), [&](PointId p) {
           return side_of(pair.lines[m], at(projected_.grid.points, p)) != side;

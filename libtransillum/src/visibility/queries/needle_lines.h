@@ -21,16 +21,16 @@ namespace transillum {
 /// corners are points of the grid. Not thread-safe.
 class NeedleLines {
  public:
-  NeedleLines(const Scene& scene, const ProjectedFragments& projected);
+  NeedleLines(const Scene& scene, const ProjectedFragments& projected)
+      : scene_(scene), projected_(projected) {}
 
-  /// Replaces the lines by those of the current projection; there are none where few fragments are
-  /// thin.
+  /// Finds the lines of the current projection; there are none where few fragments are thin.
   void fill();
   /// Whether are_apart() may be called.
   bool exist() const { return !lines_.empty(); }
   /// Sets the fragment that others are compared with.
   void begin(std::int32_t fragment);
-  /// Whether a fragment certainly has no area in common with that of begin().
+  /// Whether a fragment certainly has no area in common with the one set by begin().
   bool are_apart(std::int32_t fragment) const {
     const Strip& strip = at(strips_, fragment);
     float low = HUGE_VALF, high = -HUGE_VALF;
@@ -54,9 +54,6 @@ class NeedleLines {
     std::array<std::int8_t, 2> sides{};
   };
 
-  std::span<const PointId> corners_of(PatchId patch) const {
-    return at(has_one_piece_, patch) != 0 ? scene_.outline(patch) : std::span<const PointId>();
-  }
   Strip strip_of(const ProjectedFragments::Fragment& fragment) const;
   Pair lines_of(PatchId patch) const;
   bool patches_are_apart(std::int32_t fragment) const;
@@ -64,9 +61,8 @@ class NeedleLines {
 
   const Scene& scene_;
   const ProjectedFragments& projected_;
-  std::vector<char> has_one_piece_;  ///< by patch; others have corners that no piece has
-  std::vector<Pair> lines_;          ///< by patch
-  std::vector<Strip> strips_;        ///< by fragment
+  std::vector<Pair> lines_;    ///< by patch
+  std::vector<Strip> strips_;  ///< by fragment
   // The fragment of begin():
   PatchId own_ = 0;
   std::size_t count_ = 0;  ///< number of its corners

@@ -47,10 +47,13 @@ const VtkArray* colors_of(const std::vector<VtkArray>& arrays, const std::string
   return first;
 }
 
-/// The numbers of faces that a result has: whole and ascending; else nothing.
+/// The numbers of faces that a result has: whole and ascending. Nothing in files without a result's
+/// reflectance and emission, whose array of this name means something else.
 const VtkArray* faces_of(const VtkPolygons& file) {
   const VtkArray* faces = find(file.of_cells, "face", 1);
-  if (faces == nullptr || faces->values.size() < file.other_cells) {
+  const bool is_result =
+      find(file.of_cells, "rho", 3) != nullptr && find(file.of_cells, "E", 3) != nullptr;
+  if (faces == nullptr || !is_result || faces->values.size() < file.other_cells) {
     return nullptr;
   }
   constexpr double most = std::numeric_limits<std::int32_t>::max() - 1;
