@@ -394,6 +394,23 @@ class AppearanceTest : public QObject {
     QVERIFY(window->findChild<QDockWidget*>("settings_dock")->isVisible());
   }
 
+  // Nothing is painted while panels are placed; those that become windows meanwhile are painted
+  // again, too.
+  void a_panel_that_is_restored_as_a_window_is_painted() {
+    QSettings settings("transillum", "floating");
+    {
+      const auto window = make_active_window();
+      window->views().docks.bring_to_front("compare");
+      window->findChild<QDockWidget*>("compare_dock")->setFloating(true);
+      window->views().docks.save(settings);
+    }
+    const auto window = make_active_window();
+    QVERIFY(window->views().docks.load(settings));
+    auto* panel = window->findChild<QDockWidget*>("compare_dock");
+    QVERIFY(panel->isFloating());
+    QVERIFY(panel->updatesEnabled() && panel->widget()->updatesEnabled());
+  }
+
   void a_floating_panel_can_be_maximized_and_docks_again() {
     const auto window = make_active_window();
     auto* panel = window->findChild<QDockWidget*>("compare_dock");

@@ -199,9 +199,10 @@ class BalanceTest : public QObject {
     panels.removeDuplicates();
     QVERIFY(panels.contains("table") && panels.contains("material") && panels.contains("received"));
     for (const QString& name : panels) {
-      emit balance->linkActivated("panel:" + name);
-      const auto* dock = shown.part<QDockWidget>(qPrintable(name + "_dock"));
+      auto* dock = shown.part<QDockWidget>(qPrintable(name + "_dock"));
       QVERIFY2(dock, qPrintable(name));
+      dock->hide();
+      emit balance->linkActivated("panel:" + name);
       QTRY_VERIFY2(dock->widget()->isVisible(), qPrintable(name));
     }
   }

@@ -230,8 +230,10 @@ void BalanceView::show_text() {
   add(tr("sun"), balance_.sun, "received");
   add(symbol("E", i), balance_.exitance, "material");
   const bool renews = traits_of(snapshot_->options.scheme).renews_directions;
-  add(renews ? tr("differences of iterations") : tr("last iteration"), balance_.remainder,
-      "convergence");
+  const QString last = renews              ? tr("differences of iterations")
+                       : snapshot_->glossy ? tr("lobes and last iteration")
+                                           : tr("last iteration");
+  add(last, balance_.remainder, "convergence");
   add(symbol("B", i), balance_.radiosity, "table");
   setText(text + QStringLiteral("</table>"));
 }

@@ -150,6 +150,7 @@ void CommandPalette::fill() {
   }
   list_->setCurrentItem(list_->topLevelItem(0));
   const int rows = static_cast<int>(shown_.size()) * list_->sizeHintForRow(0);
+  layout()->activate();  // so that the list has its height before the first show
   resize(width(), std::min(highest_, height() - list_->height() + rows));
 }
 
