@@ -58,7 +58,7 @@ class AccuracyPlan {
 
   /// Options of the stage to be solved.
   const SolveOptions& stage() const { return stage_; }
-  /// Number of points of the first shot, by patch; empty: those of the options.
+  /// DirectLight::points that the first shot should have; empty: as many as the options say.
   const std::vector<int>& shot_points() const { return shot_points_.of_patches(); }
   /// The next work after a stage.
   enum class Next {

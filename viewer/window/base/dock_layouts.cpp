@@ -16,7 +16,7 @@
 #include "transillum/at.h"
 #include "widgets/build.h"
 #include "widgets/theme.h"
-#include "widgets/unpainted.h"
+#include "window/base/unpainted.h"
 
 namespace transillum::viewer {
 
