@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "transillum/bsp_tree.h"
@@ -25,8 +27,7 @@ class PlaneSearch {
   };
 
   /// @param planes of the polygons, by PolygonSet::Polygon::plane; not copied.
-  PlaneSearch(const std::vector<BspTree::Plane>& planes, double thickness)
-      : planes_(planes), thickness_(thickness) {}
+  PlaneSearch(const std::vector<BspTree::Plane>& planes, double thickness);
 
   /// The best plane for a set that is not empty; each side of it gets fewer polygons than the set
   /// has.
@@ -35,48 +36,56 @@ class PlaneSearch {
   Choice best(const PolygonSet& set, bool one_sided);
 
  private:
-  /// Extent of a polygon of the sample along the normal.
-  struct Interval {
-    double low, high;
-    bool flat() const { return low == high; }
-  };
   struct Bin {
-    std::uint32_t started, ended;          ///< intervals that started, or ended, in bins before
-    std::uint32_t first_start, first_end;  ///< while sorting
-    std::uint32_t starts, ends, inside;    ///< in this bin; inside: both
-    double least_cost;
+    std::int32_t started, ended;          ///< intervals that started, or ended, in bins before
+    std::int32_t first_start, first_end;  ///< while sorting
+    std::int32_t starts, ends, inside;    ///< in this bin; inside: both
   };
-  void collect_sample(const PolygonSet& set);
+  void forget_best();
+  void choose_normals();
+  void collect_sample(std::size_t step);
   void collect_normals();
   void collect_intervals(const Vec3& normal);
   bool count_in_bins();
-  double least_cost(const Bin& bin) const;
+  void collect_open_bins();
+  std::span<std::uint32_t> starts_of(const Bin& bin) {
+    return std::span(starts_).subspan(static_cast<std::size_t>(bin.started),
+                                      static_cast<std::size_t>(bin.starts));
+  }
+  std::span<double> ends_of(const Bin& bin) {
+    return std::span(ends_).subspan(static_cast<std::size_t>(bin.ended),
+                                    static_cast<std::size_t>(bin.ends));
+  }
   void distribute();
   void sweep(const Vec3& normal);
   void sweep_bin(const Vec3& normal, std::size_t number);
   void consider_own_planes(const Vec3& normal, const Bin& bin);
-  double next_end_point(std::size_t number) const;
+  double next_end_point(std::size_t number);
   void consider(const Vec3& normal, double offset, std::int32_t sampled, double below, double above,
                 double crossing);
-  Vec3 point(std::size_t k) const { return {x_[k], y_[k], z_[k]}; }
+  double bits(double below) const;
+  const Vec3& corner_of(std::size_t sampled, std::size_t number) const;
   Vec3 center_of(std::size_t sampled) const;
-  std::size_t bin_of(double along) const {
-    return static_cast<std::size_t>((along - lowest_) * bins_per_length_ + 0.37);
+  std::uint32_t bin_of(double along) const {
+    return static_cast<std::uint32_t>(
+        static_cast<std::int32_t>((along - lowest_) * bins_per_length_ + 0.37));
   }
 
   const std::vector<BspTree::Plane>& planes_;
   double thickness_;
+  const std::vector<double>& products_;
   const PolygonSet* set_ = nullptr;
   bool one_sided_ = true;
-  std::vector<std::int32_t> sample_;  ///< numbers of polygons in the set
-  std::vector<std::uint32_t> begin_;  ///< per polygon of the sample, and the end: first point
-  std::vector<double> x_, y_, z_;     ///< its points
-  std::vector<double> along_;         ///< … along the normal
+  std::vector<std::int32_t> sample_;            ///< numbers of polygons in the set
+  std::vector<double> x_, y_, z_;               ///< corners of its polygons
+  std::vector<std::uint32_t> polygon_of_rest_;  ///< whose corner follows the first three
   std::vector<Vec3> normals_;
-  std::vector<Interval> intervals_;
+  std::vector<std::pair<double, std::size_t>> ranking_;  ///< cost of the best plane, normal
+  std::vector<double> lows_, highs_;  ///< by polygon of the sample: its interval along the normal
+  std::vector<std::uint32_t> low_bins_, high_bins_;
   double lowest_ = 0, bins_per_length_ = 0;
   std::vector<Bin> bins_;
-  std::vector<std::uint32_t> open_bins_;
+  std::vector<std::pair<double, std::uint32_t>> open_bins_;  ///< by least cost
   std::vector<std::uint32_t> starts_;  ///< polygons of the sample, by the bin of their low end
   std::vector<double> ends_;           ///< high ends, by bin
   double best_cost_ = 0;
