@@ -11,36 +11,11 @@
 
 #include "radiosity/error/error_estimate.h"
 #include "session/shot_points.h"
+#include "session/stage_errors.h"
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
 
 namespace transillum {
-
-/// The relative error that `goal` is about: its limit with 95 % confidence.
-/// @param scene the scene.
-/// @param b radiosity, W/m², one per patch.
-/// @param error the error estimate of `b`.
-/// @returns infinity without an estimate; 0 where B is 0.
-/// @throws InputError where the scene does not have the goal's patch.
-double error_for(const AccuracyGoal& goal, const Scene& scene, const std::vector<Rgb>& b,
-                 const ErrorEstimate& error);
-
-/// Sets the worst surface of a report, where its goal is about surfaces.
-/// @param error of the result.
-void name_worst_surface(const AccuracyGoal& goal, const ErrorEstimate& error,
-                        AccuracyReport& report);
-
-/// The result of a stage, diffuse or with lobes.
-struct StageResult {
-  const Scene& scene;
-  const SolveOptions& options;
-  const std::vector<Rgb>& radiosity;  ///< B, W/m²
-  SolveStatistics statistics;
-  ErrorEstimate error;
-  const DirectLight* shot = nullptr;  ///< null where it is unknown, or there is none
-  double seconds_preparing = 0;       ///< wall time of the tree and of all shots so far
-  double seconds_first_shot = 0;      ///< wall time of all shots
-};
 
 /// Chooses the stages of a solve with SolveOptions::goal. The caller makes each: a new solver with
 /// stage(), or RadiositySolver::add_replica() of the last. With lobes all are new solvers.
@@ -97,13 +72,7 @@ class AccuracyPlan {
   Next again();
   bool asks_for_iterations(const StageResult& result);
   std::optional<Next> refine_shot(const StageResult& result, double seconds_left);
-  /// The light that errors of a patch are relative to; nothing where they do not count.
-  std::optional<Rgb> unit_of(const StageResult& result, PatchId patch) const;
-  std::vector<double> shares_of_shot(const StageResult& result) const;
-  std::vector<PatchId> patches_to_refine(const StageResult& result) const;
   Next grow(double factor, double by_time, double by_memory);
-  /// The part of error_for() that a bias of B makes; 0 without an estimate.
-  double error_of_bias(const StageResult& result, const std::vector<Rgb>& bias) const;
   double growth() const;
   bool is_stalled() const;
   /// Passes that the goal still allows.
