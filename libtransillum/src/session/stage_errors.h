@@ -49,7 +49,7 @@ class StageErrors {
   double of_iteration() const;
   /// The part that the first shot makes, of a stage that has one.
   double of_shot() const;
-  /// Those patches whose direct light makes the largest part of the error, as few as leave the
+  /// The patches whose direct light makes the largest part of the error, as few as leave the
   /// first shot an error of at most `allowed` if theirs had none.
   std::vector<PatchId> patches_to_refine(double allowed) const;
 
