@@ -164,6 +164,37 @@ TEST_P(RefinementBy, DividesAtTheEdgeOfAShadowFirst) {
   EXPECT_LT(at_edge / count_at_edge, 0.2 * beside / count_beside);
 }
 
+/// Two such shadows, far apart: one in bright red light, the other in dim blue light.
+TEST_P(RefinementBy, DividesAtTheEdgeOfAShadowInADimColorToo) {
+  const auto [by, basis] = GetParam();
+  Sketch sketch;
+  const int floor = sketch.material(0.5, 0), black = sketch.material(0, 0);
+  constexpr double apart = 1000;
+  const std::array lamps{sketch.material(0, 1000), sketch.material(0, 1)};
+  for (std::size_t k = 0; k < lamps.size(); ++k) {
+    const double y = apart * static_cast<double>(k);
+    sketch.face({{-0.7, y, 0}, {4.3, y, 0}, {4.3, y + 2, 0}, {-0.7, y + 2, 0}}, floor);
+    sketch.face({{2, y - 4, 0.02}, {9, y - 4, 0.02}, {9, y + 6, 0.02}, {2, y + 6, 0.02}}, black);
+    sketch.face({{-9, y - 9, 2}, {-9, y + 9, 2}, {9, y + 9, 2}, {9, y - 9, 2}}, lamps[k]);
+  }
+  SceneDescription description = sketch.description();
+  at(description.materials, lamps[0]).exitance = {1000, 0, 0};
+  at(description.materials, lamps[1]).exitance = {0, 0, 1};
+  const auto scene =
+      std::make_shared<const Scene>(description, SceneOptions{.max_patch_area = 0.5});
+  const Refinement refined =
+      refine(scene, options(basis), {.by = by, .patches = scene->patch_count() + 250});
+  int red = 0, blue = 0;
+  for (const Patch& patch : refined.scene->patches()) {
+    if (std::abs(patch.center.x - 2) < 0.4 && patch.center.z == 0) {
+      ++(patch.center.y < apart / 2 ? red : blue);
+    }
+  }
+  EXPECT_GT(red, 50);
+  EXPECT_GT(blue, 50);
+  EXPECT_LT(std::abs(red - blue), red / 2);
+}
+
 /// With RefineBy::error, the measure of the last round estimates the error of the result.
 TEST(Refinement, EstimatesItsError) {
   const Refinement refined =

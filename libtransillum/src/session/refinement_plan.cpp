@@ -13,6 +13,7 @@
 
 #include "base/choice.h"
 #include "base/seconds_since.h"
+#include "radiosity/analysis/radiosity_jumps.h"
 #include "radiosity/channel_sums.h"
 #include "scene/build/patch_count.h"
 #include "session/divisions.h"
@@ -30,31 +31,21 @@ constexpr double growth = 2;
 /// the rest, the others are left alone, though there would be room.
 constexpr double negligible = 1e-3;
 
-/// Integral of |B|², over channels, over all patches that emit nothing; over all if each emits.
-double square_integral(const Solution& solution) {
-  double passive = 0, all = 0;
+/// Integral of B², by channel, over all patches that emit nothing; over all if each emits.
+Rgb square_integral(const Solution& solution) {
+  Rgb passive, all;
   for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
-    const double square = sum(square_integral(solution, i));
-    all += square;
-    passive += max_abs(solution.scene->exitance(i)) > 0 ? 0 : square;
+    const Rgb square = square_integral(solution, i);
+    all = all + square;
+    passive = passive + (max_abs(solution.scene->exitance(i)) > 0 ? Rgb{} : square);
   }
-  return passive > 0 ? passive : all;
+  return max_abs(passive) > 0 ? passive : all;
 }
 
-std::vector<double> squares_by_error(const Scene& whole, const DividedScene& divided,
-                                     const Solution& solution) {
-  std::vector<double> result;
-  for (const Rgb& squares : patch_errors(whole, divided, solution).unrepresented) {
-    result.push_back(sum(squares));
-  }
-  return result;
-}
-
-std::vector<double> squares_by_jump(const Solution& solution, const Cancellation& cancellation) {
-  std::vector<double> result = radiosity_jumps(solution, cancellation);
+std::vector<Rgb> squares_by_jump(const Solution& solution, const Cancellation& cancellation) {
+  std::vector<Rgb> result = squared_jumps(solution, cancellation);
   for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
-    double& jump = at(result, i);
-    jump *= jump * solution.scene->patch(i).area;
+    at(result, i) = solution.scene->patch(i).area * at(result, i);
   }
   return result;
 }
@@ -191,13 +182,24 @@ void RefinementPlan::finish() {
 const RefinementRound& RefinementPlan::assess(const Solution& solution, double seconds,
                                               const Cancellation& cancellation) {
   const auto start = Clock::now();
-  squares_ = refine_.by == RefineBy::jump
-                 ? squares_by_jump(solution, cancellation)
-                 : squares_by_error(*refined_, {scene_, parent_}, solution);
-  const double sum = std::accumulate(squares_.begin(), squares_.end(), 0.0);
+  const std::vector<Rgb> squares =
+      refine_.by == RefineBy::jump
+          ? squares_by_jump(solution, cancellation)
+          : patch_errors(*refined_, {scene_, parent_}, solution).unrepresented;
+  const Rgb units = channel_units(root(square_integral(solution)));
+  squares_.clear();
+  Rgb sum;
+  for (const Rgb& square : squares) {
+    sum = sum + square;
+    double relative = 0;
+    for (const auto channel : channels_of_rgb) {
+      relative += ratio_or_zero(square.*channel, units.*channel * (units.*channel));
+    }
+    squares_.push_back(relative);
+  }
   RefinementRound& round = rounds_.emplace_back();
   round.patches = refined_->patch_count();
-  round.measure = sum > 0 ? std::sqrt(sum / square_integral(solution)) : 0;
+  round.measure = largest_ratio(root(sum), units);
   round.seconds = seconds_ + seconds + seconds_since(start);
   return round;
 }

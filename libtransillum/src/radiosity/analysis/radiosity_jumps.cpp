@@ -2,6 +2,8 @@
 //
 // Jumps of the radiosity across the edges of patches. Input: a Solution; neighbors are found by
 // their places, since patches of different sizes share no corners.
+#include "radiosity/analysis/radiosity_jumps.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -113,13 +115,14 @@ class Irradiance {
 
 /// A mean of squares along edges.
 struct EdgeMean {
-  double sum = 0, length = 0;
+  Rgb sum;
+  double length = 0;
 
-  void add(double square, double weight) {
-    sum += weight * square;
+  void add(const Rgb& value, double weight) {
+    sum = sum + weight * (value * value);
     length += weight;
   }
-  double root() const { return length > 0 ? std::sqrt(sum / length) : 0; }
+  Rgb mean() const { return length > 0 ? 1 / length * sum : Rgb{}; }
 };
 
 class Jumps {
@@ -130,7 +133,8 @@ class Jumps {
         places_(scene_),
         irradiance_(solution, reflectance) {}
 
-  double of(PatchId i) const {
+  /// The mean of squares, by channel.
+  Rgb squares_of(PatchId i) const {
     const auto outline = scene_.outline(i);
     const double near = touching * std::sqrt(scene_.patch(i).area);
     EdgeMean in_plane, at_angle, alone;
@@ -142,21 +146,20 @@ class Jumps {
         const Vec3 point = a + place * (b - a);
         const double weight = norm(b - a) / 2;
         const Rgb own = irradiance_.at_point(i, point);
-        alone.add(sum_of_squares(at(reflectance_, i) * own), weight);
+        alone.add(at(reflectance_, i) * own, weight);
         for (const PatchId j : places_.near(point, near)) {
           const double cosine = dot(scene_.patch(i).normal, scene_.patch(j).normal);
           if (j == i || cosine < -same_plane) {
             continue;
           }
           EdgeMean& mean = cosine > same_plane ? in_plane : at_angle;
-          mean.add(sum_of_squares(at(reflectance_, i) * (own - irradiance_.at_point(j, point))),
-                   weight);
+          mean.add(at(reflectance_, i) * (own - irradiance_.at_point(j, point)), weight);
         }
       }
     }
-    return in_plane.length > 0   ? in_plane.root()
-           : at_angle.length > 0 ? at_angle.root()
-                                 : alone.root();
+    return in_plane.length > 0   ? in_plane.mean()
+           : at_angle.length > 0 ? at_angle.mean()
+                                 : alone.mean();
   }
 
  private:
@@ -166,9 +169,7 @@ class Jumps {
   Irradiance irradiance_;
 };
 
-}  // namespace
-
-std::vector<double> radiosity_jumps(const Solution& solution, const Cancellation& cancellation) {
+std::vector<Rgb> reflectance_of(const Solution& solution) {
   std::vector<Rgb> reflectance;
   for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
     const Material& material = solution.scene->material(i);
@@ -176,21 +177,40 @@ std::vector<double> radiosity_jumps(const Solution& solution, const Cancellation
                               ? material.reflectance + used_lobe(material).reflectance
                               : material.reflectance);
   }
-  return radiosity_jumps(solution, reflectance, cancellation);
+  return reflectance;
 }
 
-std::vector<double> radiosity_jumps(const Solution& solution, std::span<const Rgb> reflectance,
-                                    const Cancellation& cancellation) {
+std::vector<Rgb> squared_jumps(const Solution& solution, std::span<const Rgb> reflectance,
+                               const Cancellation& cancellation) {
   const Jumps jumps(solution, reflectance);
-  std::vector<double> result;
+  std::vector<Rgb> result;
   result.reserve(solution.scene->patches().size());
   for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
     if (i % patches_between_checks == 0) {
       cancellation.throw_if_canceled();
     }
-    result.push_back(jumps.of(i));
+    result.push_back(jumps.squares_of(i));
   }
   return result;
+}
+
+}  // namespace
+
+std::vector<double> radiosity_jumps(const Solution& solution, const Cancellation& cancellation) {
+  return radiosity_jumps(solution, reflectance_of(solution), cancellation);
+}
+
+std::vector<double> radiosity_jumps(const Solution& solution, std::span<const Rgb> reflectance,
+                                    const Cancellation& cancellation) {
+  std::vector<double> result;
+  for (const Rgb& squares : squared_jumps(solution, reflectance, cancellation)) {
+    result.push_back(std::sqrt(sum(squares)));
+  }
+  return result;
+}
+
+std::vector<Rgb> squared_jumps(const Solution& solution, const Cancellation& cancellation) {
+  return squared_jumps(solution, reflectance_of(solution), cancellation);
 }
 
 }  // namespace transillum
