@@ -104,6 +104,24 @@ TEST(CliPicture, OptionsOfColorsChangePngFiles) {
   }
 }
 
+TEST(CliPicture, FiguresHaveTheSizeInPixelsOrCentimeters) {
+  const TemporaryFolder folder;
+  const Arguments call{"picture", lamp_and_floor(folder), "-q", "--eye", "0.5,-2,0.7"};
+  expect_success(call + method +
+                 Arguments{"--size", "80x60", "-o", folder / "p.svg", "-o", folder / "p.png"});
+  EXPECT_THAT(read_file(folder / "p.svg"), HasSubstr("width=\"80\" height=\"60\" preserve"));
+  expect_success(call + method +
+                 Arguments{"--size", "5.08x2.54cm", "--false-color", "-o", folder / "c.svg", "-o",
+                           folder / "c.pdf", "-o", folder / "c.pfm"});
+  EXPECT_EQ(size_in(read_file(folder / "c.pfm")), "600 300");
+  const std::string svg = read_file(folder / "c.svg"), pdf = read_file(folder / "c.pdf");
+  EXPECT_THAT(svg, HasSubstr("width=\"192\" height=\"96\" preserve"));
+  EXPECT_THAT(svg, HasSubstr("two.obj</title>"));
+  EXPECT_THAT(svg, HasSubstr(">radiosity B, W/m\u00b2</text>"));
+  EXPECT_THAT(pdf, HasSubstr("/Width 600"));
+  EXPECT_THAT(pdf, HasSubstr("/ToUnicode"));
+}
+
 /// A room of one wall that emits, and cameras.
 class CliPictureCameras : public ::testing::Test {
  protected:
@@ -154,22 +172,23 @@ TEST(CliPicture, BadCallsAreRefused) {
   const TemporaryFolder folder;
   expect_success({"solve", "furnace", "-m", "8", "-q", "--out", folder / "r.vtp"});
   const std::string png = folder / "p.png", pfm = folder / "p.pfm";
-  expect_all_refused({"picture", "cornell-box"},
-                     {
-                         {{"-o", png}, "a picture requires --eye X,Y,Z"},
-                         {{"--eye", "1,2,3"}, "--out is required"},
-                         {{"--eye", "1,2", "-o", png}, "three finite numbers X,Y,Z"},
-                         {{"--eye", "1,2,3", "-o", folder / "p.jpg"}, "must end in .png, .exr or"},
-                         {{"--eye", "1,2,3", "-o", "/no/such/folder/p.png"}, "/no/such/folder"},
-                         {{"--eye", "1,2,3", "-o", png, "-o", png}, "given twice"},
-                         {{"--eye", "1,2,3", "--camera", "a", "-o", png}, "excludes"},
-                     });
+  expect_all_refused(
+      {"picture", "cornell-box"},
+      {
+          {{"-o", png}, "a picture requires --eye X,Y,Z"},
+          {{"--eye", "1,2,3"}, "--out is required"},
+          {{"--eye", "1,2", "-o", png}, "three finite numbers X,Y,Z"},
+          {{"--eye", "1,2,3", "-o", folder / "p.jpg"}, "must end in .png, .svg, .pdf, .exr or"},
+          {{"--eye", "1,2,3", "-o", "/no/such/folder/p.png"}, "/no/such/folder"},
+          {{"--eye", "1,2,3", "-o", png, "-o", png}, "given twice"},
+          {{"--eye", "1,2,3", "--camera", "a", "-o", png}, "excludes"},
+      });
   expect_all_refused(
       picture_of("cornell-box") + Arguments{"-o", pfm},
       {
-          {{"--exposure", "2"}, "--exposure: used only with a .png file"},
-          {{"--tone", "aces"}, "--tone: used only with a .png file"},
-          {{"--false-color"}, "--false-color: used only with a .png file"},
+          {{"--exposure", "2"}, "--exposure: used only with a .png, .svg or .pdf file"},
+          {{"--tone", "aces"}, "--tone: used only with a .png, .svg or .pdf"},
+          {{"--false-color"}, "--false-color: used only with a .png, .svg or .pdf"},
           {{"--lux"}, "--lux: used only with --false-color"},
           {{"--false-color", "--lux", "-o", folder / "p.png"},
            "--lux: not used with .exr and .pfm files"},
@@ -186,7 +205,8 @@ TEST(CliPicture, BadCallsAreRefused) {
           {{"--engine", "none"}, "engine"},
       });
   const Arguments eye{"picture", "cornell-box", "--eye", "0.2,0.2,0.2", "-o", png};
-  for (const std::string size : {"0x10", "10x0", "100000x10", "10x100000", "10", "x", "10x10x10"}) {
+  for (const std::string size : {"0x10", "10x0", "100000x10", "10x100000", "10", "x", "10x10x10",
+                                 "0x1cm", "9cm", "9cmx9cm", "9x900cm"}) {
     expect_refused(eye + Arguments{"--size", size}, "--size: \"");
   }
   expect_refused(eye + Arguments{"--exposure", "0"}, "--exposure: \"0\" is not greater than 0");

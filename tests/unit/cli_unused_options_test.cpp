@@ -63,7 +63,7 @@ const Unused unused[] = {
     {map, {"--out", "m.svg", "--receiver", "0", "--step", "3"}, "--step: used only with"},
     {map, {"--out", "m.svg", "--engine", "rays", "--step", "3"}, "--step: used only with"},
     {map, {"--out", "m.svg", "--difference"}, "--difference: used only with"},
-    {map, {"--out", "m.json", "--size", "300"}, "--size: used only with .svg and .png"},
+    {map, {"--out", "m.json", "--size", "300"}, "--size: used only with .svg, .pdf and .png"},
     {factors, {"--rays", "10"}, "--rays: used only with engine rays"},
     {factors, {"--resolution", "10"}, "--resolution: used only with"},
     {factors, {"--seed", "2"}, "--seed: used only with"},

@@ -154,7 +154,7 @@ TEST(LineChart, ScaleChangesPixelsNotTheLayout) {
   EXPECT_NEAR(two.count(red) / one.count(red), 4, 1.5);  // anti-aliased edges of lines are paler
 }
 
-TEST(LineChart, SvgHasVectorsAndTheTextAsDescription) {
+TEST(LineChart, SvgHasVectorsAndText) {
   unsetenv("DISPLAY");
   const TemporaryFolder folder;
   LineChart chart = decades({{1, 0.01}, {5, 0.5}});
@@ -166,7 +166,9 @@ TEST(LineChart, SvgHasVectorsAndTheTextAsDescription) {
   EXPECT_THAT(svg, HasSubstr("stroke-dasharray"));
   EXPECT_THAT(svg, Not(HasSubstr("<image")));
   EXPECT_THAT(svg, HasSubstr("<title>Title; Title</title>"));
-  EXPECT_THAT(svg, HasSubstr("change &lt; 1 &amp; \ufffd"));
+  EXPECT_THAT(svg, HasSubstr(">change &lt; 1 &amp; \ufffd</text>"));
+  EXPECT_THAT(svg, HasSubstr(" change &lt; 1 &amp; \ufffd,"));
+  EXPECT_THAT(svg, HasSubstr(">Title</text>"));
 }
 
 TEST(LineChart, PngIsTheSameEachTime) {

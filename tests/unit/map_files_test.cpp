@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Maps of a small scene with known areas: their polygons, and the files written from them (SVG,
-// PNG, VTP, JSON).
+// PDF, PNG, VTP, JSON).
 #include "transillum/map_files.h"
 
 #include <gmock/gmock.h>
@@ -19,12 +19,17 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUtilities.h>
 
+#include <fmt/format.h>
+
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "support/pdf_content.h"
 #include "support/program_call.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
@@ -36,6 +41,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 /// Areas by patch and facing.
 using Areas = std::map<std::pair<PatchId, bool>, double>;
@@ -328,6 +334,76 @@ TEST_F(MapFiles, SvgIsXmlWhosePathsHaveTheAreasOfThePatches) {
   }
 }
 
+/// The areas of the filled paths of a page of PDF, square points, but of those with curves.
+std::vector<double> filled_areas(const std::string& page) {
+  std::istringstream words(page);
+  std::vector<double> areas, numbers;
+  std::vector<Vec2> outline;
+  double sum = 0;
+  bool has_curves = false;
+  for (std::string word; words >> word;) {
+    if (std::isdigit(static_cast<unsigned char>(word[0])) != 0 || word[0] == '-') {
+      numbers.push_back(std::atof(word.c_str()));
+      continue;
+    }
+    if (word == "m" || word == "h") {
+      sum += std::abs(area_of(outline));
+      outline.clear();
+    }
+    if ((word == "m" || word == "l") && numbers.size() >= 2) {
+      outline.push_back({numbers[numbers.size() - 2], numbers.back()});
+    } else if (word == "re" && numbers.size() >= 2) {
+      sum += std::abs(numbers[numbers.size() - 2] * numbers.back());
+    }
+    has_curves = has_curves || word == "c";
+    if (word == "f" || word == "S") {
+      if (word == "f" && !has_curves) {
+        areas.push_back(sum);
+      }
+      outline.clear();
+      sum = 0;
+      has_curves = false;
+    }
+    numbers.clear();
+  }
+  return areas;
+}
+
+TEST_F(MapFiles, PdfHasTheFigureOfTheSvgAsVectorsAndText) {
+  for (const VisibilityMap& map : {of_floor(), map_from_below(direction_)}) {
+    TemporaryFolder folder;
+    write_map(folder / "m.svg", *scene_, map);
+    write_map(folder / "m.pdf", *scene_, map);
+    const auto svg = parsed(read_file(folder / "m.svg"));
+    const std::string pdf = read_file(folder / "m.pdf"), page = page_of(pdf);
+    // A pixel is 3/4 of a point.
+    const double points = 0.75 * pixels_per_meter(*svg);
+    EXPECT_THAT(pdf, HasSubstr(fmt::format("/MediaBox [ 0 0 {:g} ",
+                                           0.75 * std::stod(attribute(*svg, "width")))));
+    EXPECT_THAT(pdf, HasSubstr("/ToUnicode"));
+    EXPECT_THAT(pdf, Not(HasSubstr("/Subtype /Image")));
+    EXPECT_THAT(page, HasSubstr("still life)Tj"));
+    std::vector<double> expected{std::stod(attribute(*svg, "width")) *
+                                 std::stod(attribute(*svg, "height")) * 0.75 * 0.75 /
+                                 (points * points)};
+    if (!map.window.empty()) {
+      expected.push_back(4);
+    }
+    for (vtkXMLDataElement* path : elements(*svg, "path")) {
+      if (attribute(*path, "class").starts_with("patch ")) {
+        expected.push_back(std::stod(attribute(*path, "data-area")));
+      }
+    }
+    const std::vector<double> found = filled_areas(page);
+    ASSERT_EQ(found.size(), expected.size());
+    EXPECT_NEAR(found[0] / (points * points), expected[0], 0.01 * expected[0]);  // the page
+    for (std::size_t k = 1; k < found.size(); ++k) {
+      // Cairo rounds coordinates to 1/256 of a point; no perimeter but the page's exceeds 16 m.
+      EXPECT_NEAR(found[k] / (points * points), expected[k], 16 / (256 * points)) << k;
+    }
+  }
+}
+
 TEST_F(MapFiles, SvgDescribesPatchesInToolTips) {
   const std::string below = written("m.svg", map_from_below(direction_));
   EXPECT_THAT(below, HasSubstr("patch 0 (m0): back side, sees patches 2, 1; area 4 m"));
@@ -494,11 +570,12 @@ TEST_F(MapFiles, EmptyMapsCanBeWritten) {
     EXPECT_THAT(map.polygons, IsEmpty());
     const std::string reason = empty_map_reason(*scene_, map);
     EXPECT_NE(reason, "");
-    for (const char* name : {"m.svg", "m.png", "m.vtp", "m.json"}) {
+    for (const char* name : {"m.svg", "m.pdf", "m.png", "m.vtp", "m.json"}) {
       write_map(folder_ / name, *scene_, map);
     }
     EXPECT_NE(parsed(read_file(folder_ / "m.svg")), nullptr);
     EXPECT_THAT(read_file(folder_ / "m.svg"), HasSubstr(reason));
+    EXPECT_THAT(page_of(read_file(folder_ / "m.pdf")), HasSubstr(reason.substr(0, 8)));
     EXPECT_GT(Picture(folder_ / "m.png").width(), 100);
     EXPECT_THAT(read_json(folder_ / "m.json").at("polygons"), IsEmpty());
   }
@@ -510,7 +587,7 @@ TEST_F(MapFiles, EmptyMapsCanBeWritten) {
 
 TEST_F(MapFiles, EndingsAreChecked) {
   EXPECT_NO_THROW(check_map_path(folder_ / "a.SVG"));
-  EXPECT_THROW(check_map_path(folder_ / "a.pdf"), InputError);
+  EXPECT_THROW(check_map_path(folder_ / "a.eps"), InputError);
   EXPECT_THROW(check_map_path(folder_ / "none/a.svg"), InputError);
   EXPECT_THROW(write_map(folder_ / "a.csv", *scene_, of_floor()), InputError);
   EXPECT_THAT(folder_.names(), IsEmpty());

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Files of pictures are read back: PNG by libpng, OpenEXR by its library, PFM byte by byte. Tone
+// Files of pictures are read back: PNG by libpng, OpenEXR by its library, PFM byte by byte; figures
+// as text. Tone
 // curves and scales of false colors have known values.
 #include "transillum/files.h"
 
@@ -8,6 +9,7 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <png.h>
 
@@ -17,10 +19,13 @@
 #include <numbers>
 #include <vector>
 
+#include "base/base64.h"
 #include "geometry/luminance.h"
 #include "io/drawing/color_bar.h"
+#include "io/drawing/picture_figure.h"
 #include "io/pictures/color_map.h"
 #include "io/srgb.h"
+#include "support/pdf_content.h"
 #include "support/temporary_folder.h"
 #include "transillum/errors.h"
 #include "transillum/picture.h"
@@ -31,6 +36,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::ThrowsMessage;
 
 /// The radiance of a surface of this radiosity, W/m².
@@ -230,6 +236,64 @@ TEST(FalseColors, ShowLuminanceBesideItsScale) {
     const ColorBytes color = color_of(default_color_map, 1 - from_top);
     EXPECT_EQ(scale[k], (Bytes{color[0], color[1], color[2]})) << k;
   }
+}
+
+/// A picture whose title has letters that XML escapes.
+const PictureFigure watts{.title = "a < b", .false_colors = FalseColors{.highest = 2}};
+
+TEST(PictureFigures, SvgHasThePictureAsPngAndItsScaleAsVectorsAndText) {
+  const test::TemporaryFolder folder;
+  write_figure(folder / "p.svg", small_picture(), {.look = {.exposure = 0.5}});
+  write_picture(folder / "p.png", small_picture(), {.exposure = 0.5});
+  const std::string plain = test::read_file(folder / "p.svg");
+  EXPECT_THAT(plain, HasSubstr("base64," + to_base64(test::read_file(folder / "p.png")) + "\""));
+  EXPECT_THAT(plain, HasSubstr("viewBox=\"0 0 3 2\""));
+  EXPECT_THAT(plain, Not(HasSubstr("<text")));
+  write_figure(folder / "w.svg", small_picture(), watts);
+  const std::string svg = test::read_file(folder / "w.svg");
+  std::vector<std::string> texts{"a &lt; b", "radiosity B, W/m\u00b2"};
+  for (const double tick : color_bar_ticks(2)) {
+    texts.push_back(fmt::format("{:.6g}", tick));
+  }
+  for (const std::string& text : texts) {
+    EXPECT_THAT(svg, HasSubstr(">" + text + "</text>"));
+  }
+  EXPECT_THAT(svg, HasSubstr("<title>a &lt; b</title>"));
+  EXPECT_THAT(svg, HasSubstr("fill=\"#f9e725\""));  // the first row of the scale
+}
+
+TEST(PictureFigures, PdfHasThePictureAsImageAndItsScaleAsVectorsAndText) {
+  const test::TemporaryFolder folder;
+  PictureFigure figure = watts;
+  figure.pixels_per_inch = 12;  // 3 by 2 pixels of 6 points
+  write_figure(folder / "w.pdf", small_picture(), figure);
+  const std::string pdf = test::read_file(folder / "w.pdf");
+  EXPECT_THAT(pdf, HasSubstr("/ToUnicode"));
+  EXPECT_THAT(pdf, HasSubstr("/Subtype /Image"));
+  EXPECT_THAT(pdf, HasSubstr("/Width 3"));
+  const std::string page = testing::page_of(pdf);
+  EXPECT_THAT(page, HasSubstr("18 0 0 -12 0 "));  // the picture's size
+  EXPECT_THAT(page, HasSubstr("a < b)Tj"));
+  EXPECT_THAT(page, HasSubstr("radiosity B, W/m"));
+  EXPECT_THAT(page, HasSubstr("0.976471 0.905882 0.145098 rg"));  // the same color
+}
+
+TEST(PictureFigures, RefuseOtherEndingsAndValues) {
+  const test::TemporaryFolder folder;
+  const auto refused = [](const auto& write, const std::string& message) {
+    EXPECT_THAT(write, ThrowsMessage<InputError>(HasSubstr(message)));
+  };
+  refused([&] { write_figure(folder / "p.png", small_picture(), {}); }, "must end in .svg or .pdf");
+  refused([&] { check_figure_path(folder / "p.gif"); }, "must end in .png, .svg, .pdf, .exr or");
+  refused([&] { check_figure_path("/no/such/folder/p.pdf"); }, "/no/such/folder");
+  refused([&] { write_figure(folder / "p.pdf", {}, {}); }, "0 colors for 0 by 0 pixels");
+  refused(
+      [&] {
+        write_figure(folder / "p.svg", small_picture(),
+                     {.false_colors = FalseColors{.highest = -1}});
+      },
+      "upper end of the scale: -1 is not");
+  EXPECT_THAT(folder.names(), IsEmpty());
 }
 
 }  // namespace

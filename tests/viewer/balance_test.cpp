@@ -2,7 +2,10 @@
 //
 // "Why this number?": the terms of B of a patch, and the links of their numbers.
 #include <QDockWidget>
+#include <QLabel>
+#include <QLineEdit>
 #include <QRegularExpression>
+#include <QTableView>
 #include <algorithm>
 #include <cmath>
 
@@ -161,7 +164,8 @@ class BalanceTest : public QObject {
     QVERIFY(wait_for([&] { return balance->text().contains("href='step:0'"); }));
     QVERIFY(comes_to_rest(*shown.window));
     save_picture(*shown.window, "balance");
-    const PatchId lamp = balance_of(*shown.window->snapshot(), 16).terms.front().largest;
+    const LightBalance::Term term = balance_of(*shown.window->snapshot(), 16).terms.front();
+    const PatchId lamp = term.largest;
     emit balance->linkActivated("step:0");
     QVERIFY(wait_for([&] { return shown.window->focus.arrived() && shown.window->settled(); }));
     const Focus& focus = shown.window->focus;
@@ -169,7 +173,16 @@ class BalanceTest : public QObject {
     QVERIFY(holds(Breakpoint{Breakpoint::Kind::pair, 16, lamp}, focus.map()->history,
                   focus.position().step));
     emit balance->linkActivated("seen:0");
-    QVERIFY(wait_for([&] { return shown.part<QWidget>("received_light")->isVisible(); }));
+    auto* directions = shown.part<QTableView>("received_light");
+    QVERIFY(wait_for([&] { return directions->isVisible(); }));
+    const auto chosen = [&] { return directions->selectionModel()->selectedRows(5); };
+    QVERIFY(wait_for([&] { return !chosen().isEmpty(); }));
+    for (const QModelIndex& brightest : chosen()) {
+      const PatchId patch = brightest.data().toInt();
+      QVERIFY(std::find(term.patches.begin(), term.patches.end(), patch) != term.patches.end());
+    }
+    QVERIFY(chosen().size() < directions->model()->rowCount());
+    QVERIFY(shown.part<QLabel>("received_words")->text().contains("Selected: directions"));
     emit balance->linkActivated("channel:2");
     QVERIFY(balance->text().contains("<b>blue</b>"));
     const std::vector<double> terms = shown_terms(balance->text());
@@ -205,6 +218,25 @@ class BalanceTest : public QObject {
       emit balance->linkActivated("panel:" + name);
       QTRY_VERIFY2(dock->widget()->isVisible(), qPrintable(name));
     }
+  }
+
+  void links_choose_the_part_of_the_table() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready && shown.raise("inspector_dock"));
+    auto* balance = shown.part<BalanceView>("balance");
+    shown.window->selection.select(16);
+    shown.part<FoldHeader>("why_section")->click();
+    QVERIFY(wait_for([&] { return balance->text().contains("href='step:0'"); }));
+    const auto* all = shown.part<QTableView>("patch_table");
+    const auto* partners = shown.part<QTableView>("partner_table");
+    shown.part<QLineEdit>("patch_search")->setText("26");
+    emit balance->linkActivated("panel:table-partners");
+    QVERIFY(wait_for([&] { return partners->isVisible() && partners->model()->rowCount() > 10; }));
+    emit balance->linkActivated("panel:table");
+    QVERIFY(wait_for([&] { return all->isVisible(); }));
+    const QModelIndexList rows = all->selectionModel()->selectedRows();
+    QCOMPARE(rows.size(), 1);
+    QCOMPARE(rows.front().data().toInt(), 16);
   }
 
   void a_canceled_row_is_computed_on_demand() {

@@ -1,11 +1,14 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// `transillum_viewer_tests NAME [OPTIONS OF QTEST]` runs tests/viewer/NAME_test.cpp.
+// `transillum_viewer_tests NAME [OPTIONS OF QTEST]` runs tests/viewer/NAME_test.cpp, beside the
+// window manager whose path is in TRANSILLUM_WINDOW_MANAGER, if it is set.
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "registered.h"
+#include "window_manager.h"
 
 namespace transillum::viewer::test {
 
@@ -32,6 +35,15 @@ int main(int argc, char** argv) {
       std::fprintf(stderr, "  %s\n", test.first.c_str());
     }
     return 2;
+  }
+  std::optional<transillum::viewer::test::WindowManager> manager;
+  if (const QString program = qEnvironmentVariable("TRANSILLUM_WINDOW_MANAGER");
+      !program.isEmpty()) {
+    manager.emplace(program);
+    if (!manager->runs()) {
+      std::fprintf(stderr, "%s: %s does not start\n", argv[0], qPrintable(program));
+      return 2;
+    }
   }
   argv[1] = argv[0];  // the test's options follow
   return found->second(argc - 1, argv + 1);

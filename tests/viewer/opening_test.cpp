@@ -181,6 +181,20 @@ class OpeningTest : public QObject {
     QVERIFY2(first > 0 && drawn >= whole, qPrintable(QString("%1 of %2").arg(drawn).arg(whole)));
   }
 
+  void titles_of_the_start_page_are_whole_on_a_small_screen() {
+    const auto window = make_window(8);
+    window->resize(1280 - 16, 720 - 48);
+    handle_posted();
+    int lessons = 0;
+    for (const auto* card : window->findChild<StartPage*>()->findChildren<QAbstractButton*>()) {
+      if (card->property("title_fits").isValid()) {
+        QVERIFY2(card->property("title_fits").toBool(), qPrintable(card->text()));
+        lessons += card->objectName().startsWith("lesson_") ? 1 : 0;
+      }
+    }
+    QVERIFY(lessons >= 11);
+  }
+
   // A page as wide as a long name would have to be scrolled sideways.
   void the_name_of_what_is_loaded_fits_the_start_page() {
     const auto window = make_window(8);

@@ -8,6 +8,7 @@
 #include <QMainWindow>
 #include <QPlainTextEdit>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QSpinBox>
 #include <QWheelEvent>
 #include <cmath>
@@ -149,6 +150,51 @@ class WorkspacesTest : public QObject {
     QVERIFY(!window->focus.map());
     window->views().docks.bring_to_front("map");
     QVERIFY(wait_for([&] { return window->focus.map() != nullptr; }));
+  }
+
+  // Where no lesson is about it, an arrow over a solved scene says nothing.
+  void the_direction_leaves_the_scene_with_its_solve() {
+    const auto window = window_of(small_screen);
+    QVERIFY(begins(*window, "layout_inspect"));
+    window->findChild<QAction*>("layout_teach")->trigger();
+    QVERIFY(comes_to_rest(*window));
+    Callout omega;
+    omega.anchor = Callout::Anchor::direction;
+    const auto shown = [&] {
+      return window->findChild<SceneView*>()->anchor_of(omega).has_value();
+    };
+    QVERIFY(!shown());
+    window->findChild<QAction*>("layout_debug")->trigger();
+    QVERIFY(wait_for([&] { return window->focus.map() != nullptr; }));
+    window->focus.go_to({0, 3, 2});
+    QVERIFY(wait_for(shown));
+    QVERIFY(wait_for([&] { return window->focus.arrived() && window->settled(); }));
+    window->findChild<QAction*>("layout_teach")->trigger();
+    QVERIFY(comes_to_rest(*window) && !shown());
+    window->views().docks.bring_to_front("map");
+    QVERIFY(wait_for(shown));
+  }
+
+  void the_algorithm_begins_with_a_whole_line() {
+    const auto window = window_of(small_screen);
+    QVERIFY(begins(*window, "layout_debug"));
+    QVERIFY(wait_for([&] { return window->focus.map() != nullptr; }));
+    auto* dock = window->findChild<QDockWidget*>("algorithm_dock");
+    window->views().docks.bring_to_front("algorithm");
+    const auto* area = qobject_cast<QScrollArea*>(dock->widget());
+    QVERIFY(area);
+    for (const int step : {0, 5, 60, 300}) {
+      window->focus.go_to({0, 3, step});
+      QVERIFY(wait_for([&] { return window->focus.arrived() && window->settled(); }));
+      handle_posted();
+      for (const auto* line : area->widget()->findChildren<QLabel*>()) {
+        if (!line->isVisible() || !line->text().contains(QString::fromUtf8("←"))) {
+          continue;
+        }
+        const int above = line->mapTo(area->viewport(), QPoint()).y();
+        QVERIFY2(above >= 0 || above + line->height() <= 0, qPrintable(line->text()));
+      }
+    }
   }
 
   void a_stack_has_at_most_four_tabs() {

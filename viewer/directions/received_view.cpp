@@ -6,6 +6,7 @@
 #include "directions/received_view.h"
 
 #include <QHeaderView>
+#include <QItemSelectionModel>
 #include <QTableView>
 #include <QTimer>
 #include <algorithm>
@@ -52,9 +53,13 @@ ReceivedView::ReceivedView(Focus& focus, Selection& selection, PerDirectionVisib
       refresh_timer_->start();
     }
   });
-  connect(&selection_, &Selection::changed, this, &ReceivedView::request_visibility);
+  connect(&selection_, &Selection::changed, this, [this] {
+    marked_.clear();
+    request_visibility();
+  });
   connect(&focus_, &Focus::moved, this, &ReceivedView::show_position);
   connect(view_, &QTableView::clicked, this, [this](const QModelIndex& index) {
+    marked_.clear();
     const PatchId source = table_->light(index.row()).brightest;
     if (index.column() == ReceivedTable::of_brightest && source != no_patch) {
       selection_.select(source);
@@ -149,7 +154,36 @@ void ReceivedView::show_lights() {
                     (count < directions_done()
                          ? tr(" Computed: %1 of %2 directions.")
                                .arg(count_text(count), count_text(directions_done()))
-                         : tr(" Double-click a row to go to its direction.")));
+                         : tr(" Double-click a row to go to its direction.")) +
+                    mark_rows());
+}
+
+void ReceivedView::mark_sources(const std::vector<PatchId>& sources) {
+  marked_ = sources;
+  reveals_marked_ = true;
+  show_lights();
+}
+
+QString ReceivedView::mark_rows() {
+  if (marked_.empty()) {
+    return {};
+  }
+  QItemSelection rows;
+  for (int row = 0; row < table_->rowCount(); ++row) {
+    const PatchId brightest = table_->light(row).brightest;
+    if (std::find(marked_.begin(), marked_.end(), brightest) != marked_.end()) {
+      rows.select(table_->index(row, 0), table_->index(row, ReceivedTable::column_count - 1));
+    }
+  }
+  view_->selectionModel()->select(rows, QItemSelectionModel::ClearAndSelect);
+  if (rows.isEmpty()) {
+    return tr(" In no direction is the source chosen the brightest.");
+  }
+  if (reveals_marked_) {
+    view_->scrollTo(rows.indexes().front());
+    reveals_marked_ = false;
+  }
+  return tr(" Selected: directions in which the source chosen is the brightest.");
 }
 
 }  // namespace transillum::viewer

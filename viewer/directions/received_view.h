@@ -3,6 +3,7 @@
 
 #include <QWidget>
 #include <memory>
+#include <vector>
 
 #include "model/requests/per_direction_visibility.h"
 #include "state/focus.h"
@@ -27,6 +28,9 @@ class ReceivedView : public QWidget {
 
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   void clear();
+  /// Selects the rows in which one of these sources of the selected patch is the brightest, until
+  /// another patch or row is selected.
+  void mark_sources(const std::vector<PatchId>& sources);
 
  protected:
   void showEvent(QShowEvent* event) override;
@@ -35,6 +39,8 @@ class ReceivedView : public QWidget {
   void request_visibility();
   void show_lights();
   void show_position();
+  /// Returns what the caption adds about the marked rows.
+  QString mark_rows();
   /// Directions of the iteration in focus that have been processed.
   int directions_done() const;
 
@@ -45,6 +51,8 @@ class ReceivedView : public QWidget {
   QLabel* caption_;
   QTableView* view_;
   ReceivedTable* table_;
+  std::vector<PatchId> marked_;  ///< sources whose rows are selected
+  bool reveals_marked_ = false;  ///< scroll to the first of their rows
   class QTimer* refresh_timer_;  ///< limits how often the table is refilled
 };
 

@@ -224,7 +224,7 @@ void BalanceView::show_text() {
                QStringLiteral("panel:") + QLatin1String(panel), tr("Show where it comes from")});
     }
   };
-  add(tr("%1 others").arg(balance_.other_count), balance_.others, "table");
+  add(tr("%1 others").arg(balance_.other_count), balance_.others, "table-partners");
   add(tr("first shot"), balance_.shot, "paths");
   add(tr("sky"), balance_.sky, "received");
   add(tr("sun"), balance_.sun, "received");
@@ -258,18 +258,26 @@ void BalanceView::follow(const QString& link) {
     return;
   }
   if (what == QLatin1String("panel")) {
-    emit panel_wanted(link.section(':', 1).toStdString());
+    show_panel(link.section(':', 1));
     return;
   }
   const LightBalance::Term term = balance_.terms[static_cast<std::size_t>(number)];
   if (what == QLatin1String("seen")) {
-    emit panel_wanted("received");
+    emit directions_wanted(term.patches);
   } else if (what == QLatin1String("source")) {
     term.patches.size() == 1 ? selection_.select(term.largest)
                              : selection_.select_all(term.patches);
   } else {
     emit panel_wanted("map");
     seek_exchange_with(term.largest);
+  }
+}
+
+void BalanceView::show_panel(const QString& name) {
+  if (name.startsWith(QLatin1String("table"))) {
+    emit table_wanted(name == QLatin1String("table-partners"));
+  } else {
+    emit panel_wanted(name.toStdString());
   }
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "model/light_balance.h"
 #include "model/requests/slow_quantities.h"
@@ -33,8 +34,12 @@ class BalanceView : public QLabel {
  signals:
   /// Where one row alone cannot be computed.
   void form_factors_requested();
-  /// @param panel that is to show what a link names: received or map
+  /// @param panel that is to show what a link names
   void panel_wanted(const std::string& panel);
+  /// @param partners of the receiver; otherwise its own row among all patches
+  void table_wanted(bool partners);
+  /// The directions in which the receiver sees a source, which has these patches.
+  void directions_wanted(const std::vector<PatchId>& sources);
 
  private:
   /// Shows the balance, or begins to compute its row.
@@ -55,6 +60,8 @@ class BalanceView : public QLabel {
   QString row(const QString& source, const QString& form_factor, const QString& radiosity,
               const Amount& amount) const;
   void follow(const QString& link);
+  /// @param name of the panel, or table-partners: a part of it
+  void show_panel(const QString& name);
   /// Goes to a step in which the receiver and a patch exchange light.
   void seek_exchange_with(PatchId source);
   double channel_of(const Rgb& value) const;

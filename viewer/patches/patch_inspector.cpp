@@ -52,6 +52,8 @@ PatchInspector::PatchInspector(Focus& focus, Selection& selection, const ColorCh
   layout->addWidget(coefficients_);
   layout->addStretch(1);
   connect(balance_, &BalanceView::panel_wanted, this, &PatchInspector::panel_wanted);
+  connect(balance_, &BalanceView::table_wanted, this, &PatchInspector::table_wanted);
+  connect(balance_, &BalanceView::directions_wanted, this, &PatchInspector::directions_wanted);
   connect(balance_, &BalanceView::form_factors_requested, &colors_,
           &ColorChoice::form_factors_requested);
   connect(why_->header(), &QAbstractButton::toggled, this, &PatchInspector::show_balance);

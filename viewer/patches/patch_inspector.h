@@ -31,6 +31,10 @@ class PatchInspector : public QWidget {
  signals:
   /// Passes BalanceView::panel_wanted() on.
   void panel_wanted(const std::string& panel);
+  /// Passes BalanceView::table_wanted() on.
+  void table_wanted(bool partners);
+  /// Passes BalanceView::directions_wanted() on.
+  void directions_wanted(const std::vector<PatchId>& sources);
 
  private:
   /// Adds a row with the symbol, unit and tip of the quantity.

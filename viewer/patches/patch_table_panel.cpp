@@ -124,6 +124,12 @@ void PatchTablePanel::clear() {
   count_rows();
 }
 
+void PatchTablePanel::show_selected(bool partners) {
+  search_->clear();
+  tabs_->setCurrentIndex(partners ? 1 : 0);
+  refresh();
+}
+
 void PatchTablePanel::begin_search() {
   search_->setFocus(Qt::ShortcutFocusReason);
   search_->selectAll();

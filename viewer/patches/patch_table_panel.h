@@ -26,6 +26,8 @@ class PatchTablePanel : public QWidget {
   void clear();
   /// While the panel is hidden, its tables are not filled.
   void set_watched(bool watched);
+  /// Shows the row of the selected patch among all patches, or its partners, without a search.
+  void show_selected(bool partners);
   /// Moves the keyboard focus to the search field.
   void begin_search();
   /// Writes the shown rows of the current table in their order.

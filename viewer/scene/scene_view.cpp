@@ -416,7 +416,7 @@ void SceneView::show_edges() {
 }
 
 bool SceneView::stepping() const {
-  return !focus_.following() && focus_.map() && focus_.map()->loaded == loaded_;
+  return steps_shown_ && !focus_.following() && focus_.map() && focus_.map()->loaded == loaded_;
 }
 
 void SceneView::show_step() {

@@ -64,6 +64,11 @@ class SceneView : public QWidget {
   void set_direction_shown(bool shown);
   /// Whether the newest direction is shown, too, while nothing is stepped.
   void set_direction_followed(bool followed);
+  /// Whether the step and the direction in focus are shown while one steps.
+  void set_steps_shown(bool shown) {
+    steps_shown_ = shown;
+    show_step();
+  }
   void set_outlines_shown(bool shown);
   void set_overlay_shown(SceneOverlays::Kind kind, bool shown);
   void set_wireframe(bool wireframe);
@@ -226,6 +231,7 @@ class SceneView : public QWidget {
   bool direction_shown_ = true;
   bool direction_followed_ = false;
   bool antialiased_ = true;
+  bool steps_shown_ = true;
   bool stepped_ = false;  ///< a step is drawn
   QTimer* rest_timer_;    ///< runs while steps follow each other quickly
   QTimer* draw_timer_;    ///< runs from a change until it is drawn

@@ -32,9 +32,10 @@ namespace {
 constexpr int page_margin = 28, card_gap = 12, card_padding = 10;
 constexpr int small_picture_height = 40, small_picture_width = 62;
 constexpr int least_picture_height = 66, most_picture_height = 150;
-constexpr double picture_ratio = 0.44, flat_picture_ratio = 0.3;
+constexpr double picture_ratio = 0.44, flat_picture_ratio = 0.28;
 constexpr int low_height = 640;  // a lower page has flat pictures
-constexpr int files_width = 290, least_card_width = 150;
+constexpr int least_files_width = 220, most_files_width = 290, least_card_width = 150;
+constexpr double files_part = 0.185;  // fraction of the page's width
 constexpr double small_type = 0.88, heading_type = 1.1, choice_type = 1.3;
 
 QFont scaled_font(QFont font, double factor, bool bold) {
@@ -116,6 +117,20 @@ class StartCard : public QAbstractButton {
     read_ = read;
   }
 
+  /// Whether the title is whole, in the width that is set.
+  bool title_fits(double type) const {
+    const QFontMetrics metrics(scaled_font(font(), type, look_ != Look::picture_left));
+    const int lines = title_lines();
+    const int most = (lines - 1) * metrics.lineSpacing() + metrics.height();
+    return height_of(text(), metrics, text_room().width()) <= most;
+  }
+  /// @param type  factor of the size of the title's letters
+  void set_title_type(double type) {
+    title_type_ = type;
+    setProperty("title_fits", title_fits(type));
+    update();
+  }
+
   // The button does not know its content.
   QSize sizeHint() const override { return size(); }
 
@@ -142,19 +157,35 @@ class StartCard : public QAbstractButton {
                       theme::scaled(most_picture_height));
   }
 
-  void draw_content(QPainter& painter) const {
+  int title_lines() const { return look_ == Look::picture_left ? 2 : 1; }
+  QRect picture_place() const {
+    switch (look_) {
+      case Look::choice:
+        break;
+      case Look::picture_above:
+        return {0, 0, width(), picture_height(width())};
+      case Look::picture_left:
+        return {0, 0, theme::scaled(small_picture_width), height()};
+    }
+    return {};
+  }
+  QRect text_room() const {
     const int padding = theme::scaled(card_padding);
     QRect room = rect().adjusted(padding, padding / 2, -padding, -padding / 2);
     if (look_ == Look::picture_above) {
-      const int height = picture_height(width());
-      draw_filling(painter, {0, 0, width(), height}, picture_);
-      room.setTop(height + padding / 2);
+      room.setTop(picture_place().height() + padding / 2);
     } else if (look_ == Look::picture_left) {
-      const int across = theme::scaled(small_picture_width);
-      draw_filling(painter, {0, 0, across, height()}, picture_);
-      room.setLeft(across + padding);
+      room.setLeft(picture_place().width() + padding);
     }
-    const double type = look_ == Look::choice ? choice_type : 1;
+    return room;
+  }
+
+  void draw_content(QPainter& painter) const {
+    if (look_ != Look::choice) {
+      draw_filling(painter, picture_place(), picture_);
+    }
+    const QRect room = text_room();
+    const double type = look_ == Look::choice ? choice_type : title_type_;
     painter.setFont(scaled_font(font(), type, look_ != Look::picture_left));
     painter.setPen(theme::ink);
     // The tool tip has the whole texts.
@@ -163,7 +194,7 @@ class StartCard : public QAbstractButton {
       const int most = (lines - 1) * metrics.lineSpacing() + metrics.height();
       return shortened(text, metrics, room.width(), most);
     };
-    const QString name = fitting(text(), look_ == Look::picture_left ? 2 : 1);
+    const QString name = fitting(text(), title_lines());
     const int used = height_of(name, painter.fontMetrics(), room.width());
     const QFont note_font = scaled_font(font(), look_ == Look::choice ? 1 : small_type, false);
     const int note_lines = look_ == Look::picture_above ? 2 : 1;
@@ -183,7 +214,7 @@ class StartCard : public QAbstractButton {
   Look look_;
   QString note_;
   QPixmap picture_;
-  double ratio_ = picture_ratio, read_ = 0;
+  double ratio_ = picture_ratio, read_ = 0, title_type_ = 1;
   bool first_hour_ = false;
 };
 
@@ -349,7 +380,8 @@ void StartPage::arrange() {
     set_strong(*heading);
   }
   const int room = width() - 2 * page_margin - verticalScrollBar()->sizeHint().width();
-  const int beside = theme::scaled(files_width);
+  const int beside = std::clamp(qRound(files_part * room), theme::scaled(least_files_width),
+                                theme::scaled(most_files_width));
   // In a narrow window the files are below.
   const bool wide = room > 2 * beside + 2 * card_gap;
   files_->setFixedWidth(wide ? beside : std::max(room, least_card_width));
@@ -368,6 +400,12 @@ void StartPage::place(Grid& grid, int room) const {
   for (int k = 0; k < grid.cards.size(); ++k) {
     grid.cards[k]->set_width(across, viewport()->height() < theme::scaled(low_height));
     grid.layout->addWidget(grid.cards[k], k / columns, k % columns);
+  }
+  // One size for all, so that all are whole where it is possible.
+  const bool fit = std::all_of(grid.cards.begin(), grid.cards.end(),
+                               [](const StartCard* card) { return card->title_fits(1); });
+  for (StartCard* card : grid.cards) {
+    card->set_title_type(fit ? 1 : small_type);
   }
 }
 

@@ -58,8 +58,12 @@ void FocusFeed::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
 }
 
 void FocusFeed::set_watched(bool watched) {
+  const bool changed = watched != watched_;
   watched_ = watched;
   follow();
+  if (changed) {
+    emit watched_changed();
+  }
 }
 
 void FocusFeed::follow() {

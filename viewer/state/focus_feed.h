@@ -23,9 +23,11 @@ class FocusFeed : public QObject {
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   /// Whether a view shows the maps; if not, the newest directions are not recorded.
   void set_watched(bool watched);
+  bool watched() const { return watched_; }
 
  signals:
   void failed(const QString& message);
+  void watched_changed();
 
  private:
   void follow();

@@ -20,6 +20,8 @@ namespace {
 
 // Widths of the text left and right of a lane.
 double name_width() { return 78 * theme::scale(); }
+/// Beside a thin lane lies the button that leaves the projector mode.
+double way_out_width() { return 78 * theme::scale(); }
 double lane_height() { return 18 * theme::scale(); }  // height of the upper lanes
 
 }  // namespace
@@ -32,7 +34,7 @@ double TimelineLanes::value_width() const {
     width = std::max(width,
                      margin + fontMetrics().horizontalAdvance(tr("%1 of %2").arg(widest, widest)));
   }
-  return width;
+  return width + (thin_ ? way_out_width() : 0);
 }
 
 // While the newest direction is followed, the lanes show the same direction as the map.

@@ -7,6 +7,7 @@
 #include <QEvent>
 #include <QPointer>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QSlider>
 
 namespace transillum::viewer {
@@ -25,7 +26,7 @@ class VerticalScrollArea : public QScrollArea {
 
   void keep_visible(QWidget* part) {
     kept_ = part;
-    ensureWidgetVisible(part, 0, part->height());
+    show_kept();
   }
 
  protected:
@@ -38,13 +39,30 @@ class VerticalScrollArea : public QScrollArea {
         this,
         [this] {
           if (kept_) {
-            ensureWidgetVisible(kept_, 0, kept_->height());
+            show_kept();
           }
         },
         Qt::QueuedConnection);
   }
 
  private:
+  /// The upper side cuts none of the lines among which the part is.
+  void show_kept() {
+    ensureWidgetVisible(kept_, 0, kept_->height());
+    const int top = verticalScrollBar()->value();
+    for (const QObject* child : kept_->parentWidget()->children()) {
+      const auto* line = qobject_cast<const QWidget*>(child);
+      if (!line || line == kept_ || line->isHidden()) {
+        continue;
+      }
+      const int above = line->mapTo(widget(), QPoint()).y(), below = above + line->height();
+      if (above < top && top < below && below <= kept_->mapTo(widget(), QPoint()).y()) {
+        verticalScrollBar()->setValue(below);
+        return;
+      }
+    }
+  }
+
   QPointer<QWidget> kept_;  ///< last argument of scroll_to()
 };
 

@@ -14,6 +14,7 @@
 #include <QScreen>
 #include <QStyleOption>
 #include <QSvgRenderer>
+#include <QToolButton>
 #include <QWidget>
 #include <algorithm>
 #include <atomic>
@@ -94,6 +95,9 @@ void draw_pressed_button(QPainter& painter, const QStyleOption& option) {
   painter.restore();
 }
 
+/// Side of the triangle on a button that opens a menu, pixels.
+int menu_triangle() { return scaled(8); }
+
 /// Whether a button opens a menu wherever it is pressed.
 bool opens_menu(const QStyleOption* option) {
   const auto* button = qstyleoption_cast<const QStyleOptionToolButton*>(option);
@@ -131,6 +135,13 @@ class ScaledStyle : public QProxyStyle {
                : QProxyStyle::styleHint(hint, option, widget, more);
   }
 
+  /// Room for the triangle of a button that opens a menu.
+  QSize sizeFromContents(ContentsType type, const QStyleOption* option, const QSize& contents,
+                         const QWidget* widget) const override {
+    const QSize size = QProxyStyle::sizeFromContents(type, option, contents, widget);
+    return type == CT_ToolButton && opens_menu(option) ? size + QSize(scaled(4), 0) : size;
+  }
+
   /// Fusion's triangle in the corner of a button with a menu has two pixels; this one lies beside
   /// the text, in its margin.
   void drawComplexControl(ComplexControl control, const QStyleOptionComplex* option,
@@ -142,8 +153,8 @@ class ScaledStyle : public QProxyStyle {
     QStyleOptionToolButton plain(*qstyleoption_cast<const QStyleOptionToolButton*>(option));
     plain.features &= ~QStyleOptionToolButton::HasMenu;
     QProxyStyle::drawComplexControl(control, &plain, painter, widget);
-    const int size = scaled(8);
-    plain.rect = QRect(option->rect.right() - size - scaled(1),
+    const int size = menu_triangle();
+    plain.rect = QRect(option->rect.right() - size - scaled(3),
                        option->rect.center().y() - size / 2 + scaled(1), size, size);
     drawPrimitive(PE_IndicatorArrowDown, &plain, painter, widget);
   }
@@ -157,8 +168,11 @@ class ScaledStyle : public QProxyStyle {
       return;
     }
     QStyleOptionToolButton fitting(*button);
+    if (const auto* tool = qobject_cast<const QToolButton*>(widget); tool && tool->menu()) {
+      fitting.rect.setRight(fitting.rect.right() - menu_triangle());
+    }
     fitting.text = button->fontMetrics.elidedText(button->text, Qt::ElideRight,
-                                                  button->rect.width(), Qt::TextShowMnemonic);
+                                                  fitting.rect.width(), Qt::TextShowMnemonic);
     QProxyStyle::drawControl(element, &fitting, painter, widget);
   }
 

@@ -7,11 +7,13 @@
 #include <QUndoStack>
 #include <utility>
 
+#include "directions/received_view.h"
 #include "model/solver/solve_runner.h"
 #include "patches/compare_actions.h"
 #include "patches/error_page.h"
 #include "patches/kept_run_panel.h"
 #include "patches/material_panel.h"
+#include "patches/patch_inspector.h"
 #include "patches/patch_table_panel.h"
 #include "patches/path_panel.h"
 #include "patches/selection_actions.h"
@@ -144,6 +146,20 @@ void InspectionPanels::show_snapshot(std::shared_ptr<const SolverSnapshot> snaps
   paths_->show_snapshot(snapshot);
   surfaces_->show_snapshot(snapshot);
   tables_->show_snapshot(std::move(snapshot));
+}
+
+void InspectionPanels::follow_links(PatchInspector& inspector, ReceivedView& received) {
+  connect(&inspector, &PatchInspector::panel_wanted, this,
+          [this](const std::string& panel) { docks_->bring_to_front(panel); });
+  connect(&inspector, &PatchInspector::table_wanted, this, [this](bool partners) {
+    docks_->bring_to_front("table");
+    tables_->show_selected(partners);
+  });
+  connect(&inspector, &PatchInspector::directions_wanted, &received,
+          [this, &received](const std::vector<PatchId>& sources) {
+            docks_->bring_to_front("received");
+            received.mark_sources(sources);
+          });
 }
 
 ErrorPage& InspectionPanels::errors() const { return *surfaces_->errors(); }

@@ -22,7 +22,9 @@ class DockLayouts;
 class ErrorPage;
 class MaterialPanel;
 class SurfacePanel;
+class PatchInspector;
 class PatchTablePanel;
+class ReceivedView;
 class PathPanel;
 class KeptRunPanel;
 class SelectionActions;
@@ -41,6 +43,8 @@ class InspectionPanels : public QObject {
   /// Adds what is about the light of the selected patch, and the panel `received` among it.
   void add_light_to(DockLayouts& docks, QWidget& received);
   void add_tables_to(DockLayouts& docks);
+  /// Opens what the links of an inspector name. The docks have the panels.
+  void follow_links(PatchInspector& inspector, ReceivedView& received);
   /// Adds the menus Edit and Compare.
   void add_to(QMenuBar& bar);
 

@@ -273,7 +273,7 @@ void MainWindow::watch_maps() {
 
 /// Connects views with one another, through the shared state.
 void MainWindow::connect_views() {
-  connect(inspector_, &PatchInspector::panel_wanted, &docks_, &DockLayouts::bring_to_front);
+  inspection_->follow_links(*inspector_, *received_view_);
   connect(settings_, &SettingsPanel::errors_wanted, inspection_, &InspectionPanels::show_errors);
   connect(inspection_, &InspectionPanels::paths_shown, page_->scene_view(), &SceneView::show_paths);
   connect(inspection_, &InspectionPanels::face_chosen, page_->scene_view(),

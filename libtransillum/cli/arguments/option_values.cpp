@@ -48,6 +48,13 @@ double parse_positive(const std::string& option, const std::string& text, double
   return value;
 }
 
+std::optional<double> parse_centimeters(const std::string& option, const std::string& text) {
+  if (!text.ends_with("cm")) {
+    return std::nullopt;
+  }
+  return parse_positive(option, text.substr(0, text.size() - 2));
+}
+
 Vec3 parse_point(const std::string& option, const std::string& text) {
   return named(option, [&] { return point_from_text(text); });
 }

@@ -22,6 +22,10 @@ std::optional<double> parse_first_shot(const std::string& option, const std::str
 double parse_number(const std::string& option, const std::string& text);
 /// A number greater than 0 and less than `below`.
 double parse_positive(const std::string& option, const std::string& text, double below = HUGE_VAL);
+/// Pixels per inch where the size of a picture is given in centimeters.
+inline constexpr double printed_pixels_per_inch = 300;
+/// The number before "cm" at the end, greater than 0; none without "cm".
+std::optional<double> parse_centimeters(const std::string& option, const std::string& text);
 /// A point, three numbers.
 Vec3 parse_point(const std::string& option, const std::string& text);
 /// EngineOptions::resolution

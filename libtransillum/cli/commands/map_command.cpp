@@ -16,7 +16,9 @@
 #include "cli/messages.h"
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
+#include "io/drawing/picture_figure.h"
 #include "transillum/errors.h"
+#include "transillum/files.h"
 #include "transillum/map_files.h"
 #include "visibility/pixels/pixel_map.h"
 
@@ -31,11 +33,22 @@ struct MapCall {
   std::optional<std::int32_t> step;  ///< number of steps done; unset means all
   bool difference = false;
   MapPictureOptions picture;
+  std::optional<double> centimeters;  ///< size of pictures, instead of pixels
   std::vector<std::string> out;
 
   MapCall() { scene.run.solve.engine = Engine::local; }
   Engine engine() const { return scene.run.solve.engine; }
   bool is_exact() const { return engine() == Engine::local; }
+  /// Options of a file. Figures have the pixels of a screen with scale 1, as in CSS.
+  MapPictureOptions picture_of(const std::string& file) const {
+    MapPictureOptions options = picture;
+    if (centimeters && is_map_picture(file)) {
+      const bool has_pixels = is_screen_picture(file);
+      const double pixels_per_inch = has_pixels ? printed_pixels_per_inch : PictureFigure::screen;
+      options.size = static_cast<int>(std::min(*centimeters / 2.54 * pixels_per_inch + 0.5, 1e6));
+    }
+    return options;
+  }
 };
 
 void check_receiver(const MapCall& call, const Scene& scene) {
@@ -118,7 +131,10 @@ void check_options(const MapCall& call) {
   refuse_unless(call.is_exact() || call.difference, *call.command, "--memory",
                 "used only with engine local, or with --difference");
   const bool pictures = std::any_of(call.out.begin(), call.out.end(), is_map_picture);
-  refuse_unless(pictures, *call.command, "--size", "used only with .svg and .png files");
+  refuse_unless(pictures, *call.command, "--size", "used only with .svg, .pdf and .png files");
+  for (const std::string& file : call.out) {
+    call.picture_of(file).validate();
+  }
 }
 
 int run(const MapCall& call) {
@@ -139,7 +155,7 @@ int run(const MapCall& call) {
   for (const std::string& file : call.out) {
     writers.emplace_back([&] {
       cancellation.throw_if_canceled();
-      write_map(file, *scene, map, call.picture);
+      write_map(file, *scene, map, call.picture_of(file));
     });
   }
   write_all(writers);
@@ -175,18 +191,24 @@ Command add_map_command(CLI::App& program) {
           "memory limit for the record of the map's making, such as 2G or 800M (default: a "
           "quarter of the machine's)");
   add_parsed_option(
-      command, "--size", "PIXELS",
-      fmt::format("length of the longer side of .svg and .png (default {})", call->picture.size),
+      command, "--size", "PIXELS|Ncm",
+      fmt::format("length of the longer side of .svg, .pdf and .png, in pixels, or in cm, such as "
+                  "16cm, of .png at {:.0f} pixels per inch (default {})",
+                  printed_pixels_per_inch, call->picture.size),
       [call](const std::string& text) {
+        call->centimeters = parse_centimeters("--size", text);
+        if (call->centimeters) {
+          return;
+        }
         call->picture.size = static_cast<int>(parse_whole_number(
             "--size", text, MapPictureOptions::smallest_size, MapPictureOptions::largest_size));
       });
   add_scene_options(command, call->scene);
   command
-      .add_option(
-          "-o,--out", call->out,
-          "picture (.svg, .png) or polygons in coordinates of the plane (.vtp, .json); may be "
-          "given several times")
+      .add_option("-o,--out", call->out,
+                  "picture (.svg, .pdf, .png) or polygons in coordinates of the plane (.vtp, "
+                  ".json); may be "
+                  "given several times")
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

@@ -36,17 +36,23 @@ struct PictureCall {
   const SolveOptions& solve() const { return scene.run.solve; }
 };
 
-void parse_size(const std::string& text, PictureOptions& options) {
+void parse_size(const std::string& text, PictureRequest& picture) {
   const std::size_t cross = text.find('x');
   if (cross == std::string::npos) {
-    throw InputError(
-        fmt::format("--size: \"{}\" is not a width and a height, such as 1920x1080", text));
+    throw InputError(fmt::format(
+        "--size: \"{}\" is not a width and a height, such as 1920x1080 or 16x12cm", text));
   }
+  const bool printed = text.ends_with("cm");
+  const std::string unit = printed ? "cm" : "";
   const auto pixels = [&](const std::string& number) {
-    return static_cast<int>(parse_whole_number("--size", number, 1, PictureOptions::largest_size));
+    const std::optional<double> length = parse_centimeters("--size", number);
+    const std::string count =
+        length ? fmt::format("{:.0f}", *length / 2.54 * printed_pixels_per_inch) : number;
+    return static_cast<int>(parse_whole_number("--size", count, 1, PictureOptions::largest_size));
   };
-  options.width = pixels(text.substr(0, cross));
-  options.height = pixels(text.substr(cross + 1));
+  picture.options.width = pixels(text.substr(0, cross) + unit);
+  picture.options.height = pixels(text.substr(cross + 1));
+  picture.pixels_per_inch = printed ? printed_pixels_per_inch : PictureFigure::screen;
 }
 
 std::string names_of_cameras(const std::vector<SceneCamera>& cameras) {
@@ -120,13 +126,16 @@ Camera camera_of(const PictureCall& call, const Scene& scene,
 void check_options(const PictureCall& call) {
   const CLI::App& command = *call.scene.command;
   const std::vector<std::string>& files = call.picture.files;
-  const bool has_colors = std::any_of(files.begin(), files.end(), is_screen_picture);
+  const auto shows_colors = [](const std::string& file) {
+    return is_screen_picture(file) || is_figure_file(file);
+  };
+  const bool has_colors = std::any_of(files.begin(), files.end(), shows_colors);
   for (const char* option : {"--exposure", "--tone", "--false-color"}) {
-    refuse_unless(has_colors, command, option, "used only with a .png file");
+    refuse_unless(has_colors, command, option, "used only with a .png, .svg or .pdf file");
   }
   refuse_unless(!call.picture.false_colors, command, "--tone", "not used with --false-color");
   refuse_unless(call.picture.false_colors, command, "--lux", "used only with --false-color");
-  refuse_unless(std::all_of(files.begin(), files.end(), is_screen_picture), command, "--lux",
+  refuse_unless(std::all_of(files.begin(), files.end(), shows_colors), command, "--lux",
                 "not used with .exr and .pfm files, which have radiance");
 }
 
@@ -172,7 +181,7 @@ Solution solve_scene(const PictureCall& call, const std::shared_ptr<const Scene>
 
 int run(PictureCall& call) {
   for (const std::string& file : call.picture.files) {
-    check_picture_path(file);
+    check_figure_path(file);
   }
   check_output_files(call.picture.files);
   check_options(call);
@@ -240,8 +249,11 @@ void add_picture_options(CLI::App& command, const std::shared_ptr<PictureCall>& 
   PictureOptions& options = picture.options;
   add_parsed_option(
       command, "--size", "WxH",
-      fmt::format("width and height, in pixels (default {}x{})", options.width, options.height),
-      [&options](const std::string& text) { parse_size(text, options); });
+      fmt::format(
+          "width and height, in pixels, or in cm at {:.0f} pixels per inch, such as 16x12cm "
+          "(default {}x{})",
+          printed_pixels_per_inch, options.width, options.height),
+      [&picture](const std::string& text) { parse_size(text, picture); });
   add_parsed_option(
       command, "--samples", "N",
       fmt::format("points at which each pixel is sampled (default {})", options.samples),
@@ -258,7 +270,7 @@ void add_picture_options(CLI::App& command, const std::shared_ptr<PictureCall>& 
             static_cast<int>(parse_whole_number("--gather", text, 0, PictureOptions::most_rays));
       });
   add_parsed_option(command, "--exposure", "X|auto",
-                    "B times X is the linear color of a .png file, 1 is white; 1/X is the upper "
+                    "B times X is the linear color on a screen, 1 is white; 1/X is the upper "
                     "end of false colors (default auto: 98 % of the area that does not emit is "
                     "below white)",
                     [&picture](const std::string& text) {
@@ -269,18 +281,19 @@ void add_picture_options(CLI::App& command, const std::shared_ptr<PictureCall>& 
                     });
   add_parsed_option(
       command, "--tone", "NAME",
-      fmt::format("tone curve of a .png file: {} (default linear)",
+      fmt::format("tone curve of a .png, .svg or .pdf file: {} (default linear)",
                   fmt::join(names_of<ToneCurve>(), " | ")),
       [&picture](const std::string& text) { picture.tone = from_name<ToneCurve>(text); });
   command.add_flag("--false-color", picture.false_colors,
-                   "B by a color map in a .png file, with a scale in W/m2 beside the picture");
+                   "B by a color map, with a scale in W/m2 beside the picture");
   command.add_flag(
       "--lux", picture.lux,
       "--false-color shows illuminance in lux, 683 lm/W of irradiance H, instead of B");
   command
       .add_option("-o,--out", picture.files,
-                  "picture: .png for a screen, or .exr, .pfm with radiance in W/(m2 sr); may be "
-                  "given several times")
+                  "picture: .png for a screen; .svg, .pdf, a figure with the scene's name as its "
+                  "title and the scale as vectors; or .exr, .pfm with radiance in W/(m2 sr); "
+                  "may be given several times")
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

@@ -42,11 +42,19 @@ double bright_irradiance(const Picture& picture) {
 }
 
 void write(const PictureRequest& request, const std::string& file, const Picture& picture,
-           double exposure) {
-  if (request.false_colors && is_screen_picture(file)) {
-    write_false_colors(file, picture, {.highest = 1 / exposure, .lux = request.lux});
+           double exposure, const std::string& title) {
+  const PictureLook look{.exposure = exposure, .tone = request.tone};
+  const FalseColors colors{.highest = 1 / exposure, .lux = request.lux};
+  if (is_figure_file(file)) {
+    PictureFigure figure{.title = title, .look = look, .pixels_per_inch = request.pixels_per_inch};
+    if (request.false_colors) {
+      figure.false_colors = colors;
+    }
+    write_figure(file, picture, figure);
+  } else if (request.false_colors && is_screen_picture(file)) {
+    write_false_colors(file, picture, colors);
   } else {
-    write_picture(file, picture, {.exposure = exposure, .tone = request.tone});
+    write_picture(file, picture, look);
   }
 }
 
@@ -78,6 +86,7 @@ void write_pictures(const PictureRequest& request, std::shared_ptr<const Solutio
   PictureOptions options = request.options;
   options.irradiance = request.lux;
   const double of_result = automatic_exposure(*solution);
+  const std::string title = solution->scene->name();
   Picture picture;
   display.begin("making the picture");
   try {
@@ -94,7 +103,7 @@ void write_pictures(const PictureRequest& request, std::shared_ptr<const Solutio
   display.begin("writing the picture");
   std::vector<std::function<void()>> writers;
   for (const std::string& file : request.files) {
-    writers.emplace_back([&] { write(request, file, picture, exposure); });
+    writers.emplace_back([&] { write(request, file, picture, exposure, title); });
   }
   write_all(writers);
   display.clear();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/progress_display.h"
+#include "io/drawing/picture_figure.h"
 #include "transillum/files.h"
 #include "transillum/picture.h"
 
@@ -19,9 +20,10 @@ struct PictureRequest {
   PictureOptions options = {};
   std::optional<double> exposure = std::nullopt;  ///< if unset, automatic_exposure()
   ToneCurve tone = ToneCurve::linear;
-  bool false_colors = false;  ///< .png files have them
-  bool lux = false;           ///< illuminance instead of B
-  bool quiet = false;         ///< no line on standard error
+  double pixels_per_inch = PictureFigure::screen;  ///< .svg and .pdf files have so many
+  bool false_colors = false;                       ///< .png, .svg and .pdf files have them
+  bool lux = false;                                ///< illuminance instead of B
+  bool quiet = false;                              ///< no line on standard error
 };
 
 /// Checks camera, size and memory before a solve.

@@ -20,7 +20,7 @@ struct MapLabel {
   Vec2 point;        ///< on the plane, m
 };
 
-/// Options of write_map() for pictures (.svg, .png).
+/// Options of write_map() for pictures (.svg, .pdf, .png).
 struct MapPictureOptions {
   static constexpr int smallest_size = 200;  ///< pixels
   static constexpr int largest_size = 8192;  ///< pixels
@@ -36,18 +36,18 @@ struct MapPictureOptions {
 /// Why the map is empty, as a phrase for the user; empty if it is not.
 std::string empty_map_reason(const Scene& scene, const VisibilityMap& map);
 
-/// Checks that `path` is writable and ends in .svg, .vtp, .png or .json.
+/// Checks that `path` is writable and ends in .svg, .pdf, .png, .vtp or .json.
 /// @throws InputError
 void check_map_path(const std::filesystem::path& path);
 
-/// Whether `path` ends in .svg or .png, to which MapPictureOptions apply.
+/// Whether `path` ends in .svg, .pdf or .png, to which MapPictureOptions apply.
 bool is_map_picture(const std::filesystem::path& path);
 
 /// Writes the map in the format given by the extension of `path`, completely or not at all.
 ///
 /// - .svg: a figure with title, legend and scale bar; one path per patch, of class
 ///   `patch pN front` or `patch pN back`, with its area in `data-area` (m², sum of its polygons)
-///   and a tool tip.
+///   and a tool tip; .pdf: the same figure, of vectors and text, without tool tips.
 /// - .png: the same polygons, anti-aliased, without text but labels; its text chunks describe it.
 /// - .vtp: polygons at z = 0 in plane coordinates, with cell arrays patch, front, area.
 /// - .json: frame, receiver and polygons; numbers read back bit for bit.

@@ -3,6 +3,7 @@
 
 #include <QAction>
 #include <algorithm>
+#include <utility>
 
 #include "lessons/page_control.h"
 #include "map/map_view.h"
@@ -58,6 +59,15 @@ ViewStateApplier::ViewStateApplier(const WindowFrame& frame, DockLayouts& docks,
       settings_(settings) {
   connect(&frame_.state.scene, &OpenScene::scene_shown, this, &ViewStateApplier::on_scene);
   connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, &ViewStateApplier::on_snapshot);
+  connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, [this] {
+    const auto snapshot = frame_.state.scene.snapshot();
+    const bool ended = snapshot && snapshot->progress.finished;
+    if (std::exchange(ended_, ended) != ended) {
+      follow_layout();
+    }
+  });
+  connect(&frame_.state.focus_feed, &FocusFeed::watched_changed, this,
+          &ViewStateApplier::follow_layout);
   connect(&frame_.state.runner, &SolveRunner::failed, this, [this] { awaits_ = Awaits::nothing; });
   connect(&frame_.state.focus, &Focus::moved, this, &ViewStateApplier::on_direction);
 }
@@ -96,8 +106,11 @@ void ViewStateApplier::enable_sharp(bool enabled) {
 }
 
 void ViewStateApplier::follow_layout() {
-  frame_.page.scene_view()->set_direction_followed(in_lesson() ||
-                                                   docks_.current() != Layout::inspect);
+  const Layout layout = docks_.current();
+  const bool teaches = in_lesson(), without_lesson = layout == Layout::teach && !teaches;
+  SceneView& scene = *frame_.page.scene_view();
+  scene.set_direction_followed(teaches || layout == Layout::debug || (without_lesson && !ended_));
+  scene.set_steps_shown(!without_lesson || frame_.state.focus_feed.watched());
 }
 
 void ViewStateApplier::set_option(const std::string& name, const std::string& value) {

@@ -35,7 +35,8 @@ class ViewStateApplier : public QObject {
   void leave_lesson();
   /// Whether a page has been shown, and leave_lesson() not called since.
   bool in_lesson() const { return before_lesson_ && !leaving_; }
-  /// Shows the newest direction in lessons and in layouts that are about directions.
+  /// Shows the newest direction in lessons and in layouts that are about directions: in Teach
+  /// without a lesson, while the solve runs.
   void follow_layout();
   void enable_sharp(bool enabled);
   /// Reads the file of the open scene again, and shows it in the same state.
@@ -89,6 +90,7 @@ class ViewStateApplier : public QObject {
   bool leaving_ = false;                    ///< leave_lesson() was called for the next scene
   bool applies_view_ = false;               ///< within apply_view()
   Awaits awaits_ = Awaits::nothing;
+  bool ended_ = false;  ///< the solve run that is shown
   /// The first directions of the run that the requested run replaces; null if it replaces none.
   /// Each run has its own copy.
   std::shared_ptr<const std::vector<Vec3>> run_before_;

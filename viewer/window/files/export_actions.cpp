@@ -365,8 +365,8 @@ bool ExportActions::save_edited() {
 }
 
 void ExportActions::choose_map() {
-  write_chosen(tr("Visibility map"), tr("Maps (*.svg *.png *.vtp *.json)"), name_with("-map.svg"),
-               [this](const QString& path) { write_map_picture(path); });
+  write_chosen(tr("Visibility map"), tr("Maps (*.svg *.pdf *.png *.vtp *.json)"),
+               name_with("-map.svg"), [this](const QString& path) { write_map_picture(path); });
 }
 
 void ExportActions::choose_charts() {

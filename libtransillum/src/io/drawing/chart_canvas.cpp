@@ -177,9 +177,11 @@ ChartPoint ChartCanvas::on_pixels(const ChartPoint& point, double width, bool is
 void ChartCanvas::draw(std::span<const ChartPoint> points, const ChartPen& pen) {
   const bool is_vertical = points.size() == 2 && points[0].x == points[1].x;
   const bool is_horizontal = points.size() == 2 && points[0].y == points[1].y;
+  const bool has_pixels =
+      !device_ && cairo_surface_get_type(cairo_get_target(cairo_)) == CAIRO_SURFACE_TYPE_IMAGE;
   cairo_new_path(cairo_);
   for (const ChartPoint& point : points) {
-    const ChartPoint at = !device_ && (is_vertical || is_horizontal)
+    const ChartPoint at = has_pixels && (is_vertical || is_horizontal)
                               ? on_pixels(point, pen.width, is_vertical)
                               : point;
     cairo_line_to(cairo_, at.x, at.y);

@@ -39,7 +39,8 @@ class ChartCanvas {
             bool upward = false);
 
   void fill(const ChartArea& area, const ChartColor& color);
-  /// Draws a polyline. Horizontal and vertical lines are aligned with whole pixels.
+  /// Draws a polyline. On a surface of pixels, horizontal and vertical lines are aligned with
+  /// them.
   void draw(std::span<const ChartPoint> points, const ChartPen& pen);
   /// Draws the marker of a series.
   /// @param paper  color of the inside of hollow markers

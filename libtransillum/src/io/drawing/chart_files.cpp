@@ -1,42 +1,47 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Line charts as SVG, PDF or PNG files, or painted into pixels in memory.
-#include <cairo-pdf.h>
-#include <cairo-svg.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <ostream>
-#include <sstream>
+#include <utility>
 
 #include "base/text_file.h"
 #include "io/drawing/cairo_surface.h"
 #include "io/drawing/chart_canvas.h"
 #include "io/drawing/line_chart.h"
-#include "io/text.h"
+#include "io/drawing/svg_device.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 
 namespace transillum {
 namespace {
 
-/// Paints charts one below the other, of equal height, on a surface of `width` by `height` units;
-/// `scale`: pixels per unit. Returns the plot area of the last.
+/// Paints charts one below the other, of equal height, in an area of `width` by `height` units.
+/// Returns the plot area of the last.
+ChartArea paint(cairo_t* cairo, const std::vector<LineChart>& charts, double width, double height) {
+  const double each = height / static_cast<double>(charts.size());
+  ChartArea area;
+  for (const LineChart& chart : charts) {
+    area = paint_chart(cairo, chart, width, each);
+    cairo_translate(cairo, 0, each);
+  }
+  return area;
+}
+
+/// The same on a surface. @param scale  pixels per unit
 ChartArea paint(cairo_surface_t* surface, const std::vector<LineChart>& charts, double width,
                 double height, double scale) {
   const CairoContext cairo(cairo_create(surface), cairo_destroy);
-  const double each = height / static_cast<double>(charts.size());
-  ChartArea area;
   cairo_scale(cairo.get(), scale, scale);
-  for (const LineChart& chart : charts) {
-    area = paint_chart(cairo.get(), chart, width, each);
-    cairo_translate(cairo.get(), 0, each);
-  }
+  const ChartArea area = paint(cairo.get(), charts, width, height);
   check_drawn(cairo_status(cairo.get()));
   return area;
 }
 
-/// Title and description for screen readers: the letters of the drawing are outlines.
-std::string description_of(const std::vector<LineChart>& charts) {
+/// The titles, and axes and series with their notes, for screen readers.
+std::pair<std::string, std::string> description_of(const std::vector<LineChart>& charts) {
   std::string title, lines;
   for (const LineChart& chart : charts) {
     title += (title.empty() ? "" : "; ") + chart.title;
@@ -48,36 +53,27 @@ std::string description_of(const std::vector<LineChart>& charts) {
       lines += " " + series.name + (series.note.empty() ? "," : " " + series.note + ",");
     }
   }
-  return fmt::format("<title>{}</title>\n<desc>{}</desc>\n", xml_text(title), xml_text(lines));
+  return {title, lines};
 }
 
 void write_chart_svg(std::ostream& out, const std::vector<LineChart>& charts,
                      const ChartPage& page) {
-  std::ostringstream drawing;
-  const CairoSurface surface(
-      cairo_svg_surface_create_for_stream(append_to_stream, &drawing, page.width, page.height),
-      cairo_surface_destroy);
-  paint(surface.get(), charts, page.width, page.height, 1);
-  cairo_surface_finish(surface.get());
-  check_drawn(cairo_surface_status(surface.get()));
-  std::string svg = std::move(drawing).str();
-  svg.insert(svg.find('\n', svg.find("<svg")) + 1, description_of(charts));
-  out << svg;
+  const auto [title, lines] = description_of(charts);
+  SvgDevice svg(out, page.width, page.height, charts.front().style.font, title, lines);
+  const double each = page.height / static_cast<double>(charts.size());
+  for (std::size_t k = 0; k < charts.size(); ++k) {
+    svg.move_origin({0, each * static_cast<double>(k)});
+    const std::array corners{ChartPoint{0, 0}, ChartPoint{page.width, 0},
+                             ChartPoint{page.width, each}, ChartPoint{0, each}};
+    svg.fill(corners, charts[k].style.paper);
+    draw_chart(charts[k], page.width, each, svg);
+  }
 }
 
 void write_chart_pdf(std::ostream& out, const std::vector<LineChart>& charts,
                      const ChartPage& page) {
-  constexpr double points = 0.75;  // per pixel of a screen with scale 1, as in CSS
-  const CairoSurface surface(cairo_pdf_surface_create_for_stream(
-                                 append_to_stream, &out, points * page.width, points * page.height),
-                             cairo_surface_destroy);
-  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE,
-                                 charts.front().title.c_str());
-  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATOR,
-                                 "transillum " TRANSILLUM_VERSION);
-  paint(surface.get(), charts, page.width, page.height, points);
-  cairo_surface_finish(surface.get());
-  check_drawn(cairo_surface_status(surface.get()));
+  write_pdf(out, page.width, page.height, charts.front().title,
+            [&](cairo_t* cairo) { paint(cairo, charts, page.width, page.height); });
 }
 
 void write_chart_png(std::ostream& out, const std::vector<LineChart>& charts,
@@ -121,14 +117,7 @@ ChartArea paint_chart(const LineChart& chart, const ChartPixels& pixels, double 
 }
 
 void draw_chart(const LineChart& chart, double width, double height, ChartDevice& device) {
-  const CairoSurface surface = make_surface(1, 1);
-  const CairoContext cairo(cairo_create(surface.get()), cairo_destroy);
-  // Flattens circles; sizes of texts are those without a grid of pixels.
-  cairo_set_tolerance(cairo.get(), 0.02);
-  cairo_font_options_t* options = cairo_font_options_create();
-  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
-  cairo_set_font_options(cairo.get(), options);
-  cairo_font_options_destroy(options);
+  const CairoContext cairo = make_measuring_context();
   paint_chart(cairo.get(), chart, width, height, &device);
   check_drawn(cairo_status(cairo.get()));
 }

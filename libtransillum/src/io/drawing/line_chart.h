@@ -185,7 +185,7 @@ struct ChartPage {
 /// @throws InputError
 void check_chart_path(const std::filesystem::path& path);
 /// Writes charts of equal size, one below another, in the format given by the extension of `path`,
-/// completely or not at all. SVG contains lines and glyph outlines, and all texts again as its
+/// completely or not at all. SVG and PDF contain lines and text; SVG has the texts again as its
 /// description.
 /// @throws InputError as check_chart_path; std::runtime_error if it cannot be written.
 void write_charts(const std::filesystem::path& path, const std::vector<LineChart>& charts,

@@ -25,14 +25,17 @@ MapWriter writer_for(const std::filesystem::path& path, const MapPictureOptions&
   if (ending == ".png") {
     return std::bind(write_map_png, _1, _2, _3, options);
   }
+  if (ending == ".pdf") {
+    return std::bind(write_map_pdf, _1, _2, _3, options);
+  }
   if (ending == ".vtp") {
     return write_map_vtp;
   }
   if (ending == ".json") {
     return write_map_json;
   }
-  throw InputError(
-      fmt::format("{}: the name of a map must end in .svg, .vtp, .png or .json", path.string()));
+  throw InputError(fmt::format("{}: the name of a map must end in .svg, .pdf, .png, .vtp or .json",
+                               path.string()));
 }
 
 }  // namespace
@@ -44,7 +47,7 @@ void check_map_path(const std::filesystem::path& path) {
 
 bool is_map_picture(const std::filesystem::path& path) {
   const std::string ending = lower_case_ending(path);
-  return ending == ".svg" || ending == ".png";
+  return ending == ".svg" || ending == ".pdf" || ending == ".png";
 }
 
 void write_map(const std::filesystem::path& path, const Scene& scene, const VisibilityMap& map,

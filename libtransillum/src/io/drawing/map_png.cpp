@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "io/drawing/cairo_surface.h"
+#include "io/drawing/map_label.h"
 #include "io/maps/map_drawing.h"
 #include "io/maps/map_writers.h"
 
@@ -169,27 +170,6 @@ class Canvas {
   std::vector<Pixel> pixels_;
 };
 
-void draw_label(cairo_t* cairo, const PlacedLabel& label) {
-  cairo_select_font_face(cairo, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
-  cairo_set_font_size(cairo, label_size);
-  cairo_text_extents_t extents;
-  cairo_text_extents(cairo, label.text.c_str(), &extents);
-  cairo_set_source_rgb(cairo, 1, 1, 1);
-  cairo_set_line_width(cairo, 2);
-  cairo_move_to(cairo, label.point.x, label.point.y);
-  cairo_line_to(cairo, label.base.x, label.base.y);
-  cairo_stroke(cairo);
-  cairo_arc(cairo, label.point.x, label.point.y, 3, 0, 7);
-  cairo_fill(cairo);
-  cairo_move_to(cairo, label.base.x - (label.ends_at ? extents.x_advance : 0), label.base.y);
-  cairo_text_path(cairo, label.text.c_str());
-  cairo_set_source_rgb(cairo, 0, 0, 0);
-  cairo_set_line_width(cairo, 4);
-  cairo_stroke_preserve(cairo);
-  cairo_set_source_rgb(cairo, 1, 1, 1);
-  cairo_fill(cairo);
-}
-
 /// A chunk of text of a PNG file.
 std::string text_chunk(const std::string& key, const std::string& text) {
   const std::string body = "tEXt" + key + '\0' + text;
@@ -261,7 +241,7 @@ void write_map_png(std::ostream& out, const Scene& scene, const VisibilityMap& m
   const CairoSurface picture = canvas.picture();
   const CairoContext cairo(cairo_create(picture.get()), cairo_destroy);
   for (const PlacedLabel& label : place_labels(options.labels, layout.transform, 0, layout.width)) {
-    draw_label(cairo.get(), label);
+    draw_map_label(cairo.get(), label);
   }
   check_drawn(cairo_status(cairo.get()));
   std::ostringstream png;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "io/maps/map_drawing.h"
+#include "io/maps/map_figure.h"
 #include "io/maps/map_writers.h"
 #include "io/text.h"
 #include "transillum/errors.h"
@@ -33,39 +33,23 @@ constexpr const char* style = R"(  <style>
 
 std::string hex(const Color8& c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
 
-/// A name of at most `max_size` bytes: the end of a longer one, after an ellipsis. The end is the
-/// distinctive part of a path.
-std::string shortened(const std::string& text, std::size_t max_size) {
-  std::string clean = clean_text(text);
-  if (clean.size() <= max_size) {
-    return clean;
-  }
-  std::size_t begin = clean.size() - max_size;
-  while (begin < clean.size() && (clean[begin] & 0xc0) == 0x80) {
-    ++begin;  // inside a character
-  }
-  return "\u2026" + clean.substr(begin);
-}
-
 class SvgFigure {
  public:
   SvgFigure(std::ostream& out, const Scene& scene, const VisibilityMap& map,
             const MapPictureOptions& options)
-      : text_(out), scene_(scene), map_(map), options_(options) {
-    layout_ = fit_map(map, options.size - 2 * padding, options.size - header - footer);
-    width_ = std::max(layout_.width + 2 * padding, in_pixels() ? least_width + 130 : least_width);
-    height_ = layout_.height + header + footer;
-    left_ = (width_ - layout_.width) / 2;
-    layout_.transform.middle.x += left_;
-    layout_.transform.middle.y += header;
-  }
+      : text_(out),
+        scene_(scene),
+        map_(map),
+        options_(options),
+        figure_(scene, map, options),
+        layout_(figure_.layout) {}
 
   void write() {
     begin();
     add_header();
     add_map();
-    if (!map_.corners.empty()) {
-      add_scale_bar();
+    if (figure_.scale_bar) {
+      add_scale_bar(*figure_.scale_bar);
     }
     add_axes();
     add_legend();
@@ -73,23 +57,15 @@ class SvgFigure {
   }
 
  private:
-  static constexpr double padding = 24, header = 104, footer = 92, least_width = 470;
-  /// Upper bound of the mean width of the title's bold letters, pixels.
-  static constexpr double title_letter = 13;
-
-  std::string heading(const std::string& scene_name) const {
-    return map_.receiver == no_patch
-               ? fmt::format("Visibility map of {}", scene_name)
-               : fmt::format("Visible from patch {} of {}", map_.receiver, scene_name);
-  }
+  static constexpr double padding = MapFigure::padding, header = MapFigure::header;
 
   void begin() {
     text_.add("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     text_.add(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"{0:.0f}\" "
         "height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\">\n",
-        width_, height_);
-    text_.add("  <title>{}</title>\n", xml_text(heading(scene_.name())));
+        figure_.width, figure_.height);
+    text_.add("  <title>{}</title>\n", xml_text(figure_.title));
     const Vec3& omega = map_.frame.omega;
     text_.add("  <desc>transillum " TRANSILLUM_VERSION
               "; direction omega = {}, {}, {}; view along omega; {} pixels per meter</desc>\n",
@@ -99,40 +75,24 @@ class SvgFigure {
   }
 
   void add_header() {
-    const auto room = static_cast<std::size_t>((width_ - 2 * padding) / title_letter);
-    const std::size_t fixed = heading({}).size();
-    const std::string name = shortened(scene_.name(), room > fixed + 8 ? room - fixed : 8);
-    text_.add("  <text class=\"title\" x=\"{}\" y=\"42\">{}</text>\n", padding,
-              xml_text(heading(name)));
-    const Vec3& omega = map_.frame.omega;
-    text_.add(
-        "  <text x=\"{}\" y=\"66\">View along \u03c9 = ({:.4g}, {:.4g}, {:.4g}), toward the "
-        "light</text>\n",
-        padding, omega.x, omega.y, omega.z);
-    double area = 0;
-    int patches = 0;
-    PatchId last = no_patch;
-    for (const VisibilityMap::Polygon& polygon : map_.polygons) {
-      area += polygon.area;
-      patches += polygon.patch != last ? 1 : 0;
-      last = polygon.patch;
-    }
-    const std::string parts = in_pixels() ? fmt::format("pixels of {:.3g} m", map_.pixels.side)
-                                          : fmt::format("{} polygons", map_.polygons.size());
-    text_.add("  <text x=\"{}\" y=\"86\">{} of {} patches, {}, total area {:.4g} m\u00b2</text>\n",
-              padding, patches, scene_.patch_count(), parts, area);
+    text_.add("  <text class=\"title\" x=\"{}\" y=\"{}\">{}</text>\n", padding,
+              MapFigure::title_base, xml_text(figure_.short_title));
+    text_.add("  <text x=\"{}\" y=\"{}\">{}</text>\n", padding, MapFigure::direction_base,
+              figure_.direction);
+    text_.add("  <text x=\"{}\" y=\"{}\">{}</text>\n", padding, MapFigure::content_base,
+              figure_.content);
   }
 
   void add_map() {
     text_.add(
         "  <rect class=\"ground\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" "
         "rx=\"4\" fill=\"{}\"/>\n",
-        left_, header, layout_.width, layout_.height, hex(map_colors::ground));
+        figure_.left, header, layout_.width, layout_.height, hex(map_colors::ground));
     add_window();
     // crispEdges: no background shows between adjacent rectangles.
     text_.add("  <g class=\"map\" stroke-width=\"{:.3g}\" stroke-opacity=\"0.6\"{}>\n",
               line_width(map_, layout_.transform.scale),
-              in_pixels() ? " shape-rendering=\"crispEdges\"" : "");
+              figure_.in_pixels ? " shape-rendering=\"crispEdges\"" : "");
     auto first = map_.polygons.begin();
     while (first != map_.polygons.end()) {
       const auto last = std::find_if(first, map_.polygons.end(), [&](const auto& polygon) {
@@ -142,16 +102,15 @@ class SvgFigure {
       first = last;
     }
     text_.add("  </g>\n");
-    if (in_pixels()) {
+    if (figure_.in_pixels) {
       add_pixel_marks();
     }
     add_labels();
-    const std::string reason = empty_map_reason(scene_, map_);
-    if (reason.empty()) {
+    if (figure_.empty_reason.empty()) {
       return;
     }
-    text_.add("  <text class=\"note\" x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n", width_ / 2,
-              header + layout_.height / 2, xml_text(reason));
+    text_.add("  <text class=\"note\" x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n", figure_.width / 2,
+              header + layout_.height / 2, xml_text(figure_.empty_reason));
   }
 
   void add_outlines(std::span<const VisibilityMap::Polygon> polygons) {
@@ -165,8 +124,6 @@ class SvgFigure {
       text_.add("Z");
     }
   }
-
-  bool in_pixels() const { return map_.pixels.side > 0; }
 
   void add_pixel_marks() {
     for (const VisibilityMap::Polygon& polygon : map_.pixels.differences) {
@@ -190,7 +147,7 @@ class SvgFigure {
 
   void add_labels() {
     for (const PlacedLabel& label :
-         place_labels(options_.labels, layout_.transform, left_, layout_.width)) {
+         place_labels(options_.labels, layout_.transform, figure_.left, layout_.width)) {
       text_.add(
           "  <path class=\"pointer\" d=\"M{0:.2f} {1:.2f}L{2:.2f} {3:.2f}M{4:.2f} {1:.2f}a3 3 0 1 "
           "0 6 "
@@ -219,7 +176,8 @@ class SvgFigure {
       area += polygon.area;
     }
     text_.add("    <path class=\"{} p{} {}{}\" data-area=\"{}\" fill=\"{}\" d=\"",
-              in_pixels() ? "patch pixel" : "patch", any.patch, any.front_facing ? "front" : "back",
+              figure_.in_pixels ? "patch pixel" : "patch", any.patch,
+              any.front_facing ? "front" : "back",
               role_of(scene_, any) == PatchRole::emits ? " emits" : "", area,
               hex(color_of(scene_, any, options_)));
     add_outlines(polygons);
@@ -263,22 +221,15 @@ class SvgFigure {
     return text;
   }
 
-  void add_scale_bar() {
-    // The largest 1, 2 or 5 times a power of ten that is at most a quarter of the width.
-    const double max_length = width_ / 4 / layout_.transform.scale;
-    const double power = std::pow(10.0, std::floor(std::log10(max_length)));
-    const double lead = max_length / power;
-    const double meters = power * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
-    const double length = meters * layout_.transform.scale;
-    const double y = height_ - 62;
-    text_.add("  <path class=\"rule\" d=\"M{0} {2}v8M{0} {3}H{1:.2f}M{1:.2f} {2}v8\"/>\n", padding,
-              padding + length, y - 4, y);
-    text_.add("  <text x=\"{:.2f}\" y=\"{}\">{:g} m</text>\n", padding + length + 10, y + 4.5,
-              meters);
+  void add_scale_bar(const MapFigure::ScaleBar& bar) {
+    text_.add("  <path class=\"rule\" d=\"M{0} {2}v8M{0} {3}H{1:.2f}M{1:.2f} {2}v8\"/>\n", bar.left,
+              bar.right, bar.y - 4, bar.y);
+    text_.add("  <text x=\"{:.2f}\" y=\"{}\">{:g} m</text>\n", bar.right + 10, bar.y + 4.5,
+              bar.meters);
   }
 
   void add_axes() {
-    const double x = width_ - padding - 18, y = height_ - 56;
+    const auto [x, y] = figure_.axes;
     text_.add(
         "  <path class=\"rule\" d=\"M{0} {1}h-22m5 -4l-5 4l5 4M{0} {1}v-22m-4 5l4 -5l4 5\"/>\n", x,
         y);
@@ -286,49 +237,14 @@ class SvgFigure {
     text_.add("  <text x=\"{}\" y=\"{}\">v</text>\n", x + 7, y - 13);
   }
 
-  /// Whether nothing is above a part of the receiver.
-  bool leaves_a_gap() const {
-    const double area = total_area(map_.window);
-    double open = area;
-    for (const VisibilityMap::Polygon& polygon : map_.polygons) {
-      open -= polygon.area;
-    }
-    return open > 1e-6 * area;
-  }
-
   void add_legend() {
-    double x = padding;
-    const auto entry = [&](const Color8& color, const char* label, double width) {
+    for (const MapFigure::LegendEntry& entry : figure_.legend) {
       text_.add(
           "  <rect class=\"swatch\" x=\"{}\" y=\"{}\" width=\"16\" height=\"12\" rx=\"2\" "
           "fill=\"{}\"/>\n",
-          x, height_ - 32, hex(color));
-      text_.add("  <text x=\"{}\" y=\"{}\">{}</text>\n", x + 22, height_ - 21.5, label);
-      x += width;
-    };
-    const auto add = [&](PatchRole role, const char* label, double width) {
-      const auto found =
-          std::find_if(map_.polygons.begin(), map_.polygons.end(), [&](const auto& polygon) {
-            // Ignore polygons too small to be visible, such as rounding residues.
-            const double pixels = polygon.area * std::pow(layout_.transform.scale, 2);
-            return pixels > 0.1 && role_of(scene_, polygon) == role;
-          });
-      if (found != map_.polygons.end()) {
-        entry(color_of(scene_, *found, options_), label, width);
-      }
-    };
-    // The meaning of the caller's colors is not known here.
-    if (options_.patch_colors.empty()) {
-      add(PatchRole::emits, "emits", 84);
-      add(PatchRole::reflects, "reflects", 102);
-    }
-    add(PatchRole::back_side, "back side", 112);
-    if (leaves_a_gap()) {
-      entry(map_colors::nothing, "nothing above", 132);
-    }
-    if (!map_.pixels.differences.empty()) {
-      entry(map_colors::difference,
-            fmt::format("differs ({:.2g} %)", 100 * difference_fraction(map_)).c_str(), 0);
+          entry.left, figure_.legend_top, hex(entry.color));
+      text_.add("  <text x=\"{}\" y=\"{}\">{}</text>\n", entry.left + 22, figure_.legend_top + 10.5,
+                entry.label);
     }
   }
 
@@ -336,8 +252,8 @@ class SvgFigure {
   const Scene& scene_;
   const VisibilityMap& map_;
   const MapPictureOptions& options_;
-  MapLayout layout_;
-  double width_ = 0, height_ = 0, left_ = 0;
+  const MapFigure figure_;
+  const MapLayout& layout_;
 };
 
 }  // namespace

@@ -13,6 +13,8 @@ void write_map_svg(std::ostream& out, const Scene& scene, const VisibilityMap& m
                    const MapPictureOptions& options);
 void write_map_png(std::ostream& out, const Scene& scene, const VisibilityMap& map,
                    const MapPictureOptions& options);
+void write_map_pdf(std::ostream& out, const Scene& scene, const VisibilityMap& map,
+                   const MapPictureOptions& options);
 void write_map_vtp(std::ostream& out, const Scene& scene, const VisibilityMap& map);
 void write_map_json(std::ostream& out, const Scene& scene, const VisibilityMap& map);
 

@@ -9,7 +9,7 @@
 
 namespace transillum {
 
-void write_picture_png(std::ostream& out, const Picture& picture, const PictureLook& look) {
+std::vector<unsigned char> screen_colors(const Picture& picture, const PictureLook& look) {
   std::vector<unsigned char> bytes;
   bytes.reserve(3 * picture.radiance.size());
   for (const Rgb& radiance : picture.radiance) {
@@ -18,7 +18,11 @@ void write_picture_png(std::ostream& out, const Picture& picture, const PictureL
       bytes.push_back(static_cast<unsigned char>(srgb_byte(channel)));
     }
   }
-  out << png_of(picture.width, picture.height, bytes);
+  return bytes;
+}
+
+void write_picture_png(std::ostream& out, const Picture& picture, const PictureLook& look) {
+  out << png_of(picture.width, picture.height, screen_colors(picture, look));
 }
 
 }  // namespace transillum

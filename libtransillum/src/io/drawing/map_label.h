@@ -1,0 +1,15 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <cairo.h>
+
+#include "io/maps/map_drawing.h"
+
+namespace transillum {
+
+inline constexpr const char* label_font = "DejaVu Sans";
+
+/// Draws the label of a map, white with a dark edge; its text is text where the surface has text.
+void draw_map_label(cairo_t* cairo, const PlacedLabel& label);
+
+}  // namespace transillum
