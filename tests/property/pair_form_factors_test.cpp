@@ -217,6 +217,21 @@ TEST(PairFormFactors, AreTheRowsOfExactFormFactors) {
   }
 }
 
+/// A small patch under a plate that hides half of the ceiling from it: by its size over the
+/// distance it gets three points, which see a third of that, or two.
+TEST(PairFormFactors, PastABlockerNearASmallPatchTakeMorePoints) {
+  testing::Sketch sketch;
+  const int gray = sketch.material(0.5, 0);
+  sketch.face({{-0.05, -0.05, 0}, {0.05, -0.05, 0}, {0.05, 0.05, 0}, {-0.05, 0.05, 0}}, gray);
+  sketch.face({{-2.5, -2.5, 3}, {-2.5, 2.5, 3}, {2.5, 2.5, 3}, {2.5, -2.5, 3}}, gray);
+  sketch.face({{0.01, -1, 0.02}, {1, -1, 0.02}, {1, 1, 0.02}, {-0.02, 1, 0.02}}, gray);
+  const auto scene = sketch.scene();
+  const double usual = dense_row(*scene, pair_form_factors(*scene, {.points = 32}), 0)[1];
+  const double many = dense_row(*scene, pair_form_factors(*scene, {.points = 512}), 0)[1];
+  EXPECT_GT(many, 0.1);
+  EXPECT_NEAR(usual, many, 0.005 * many);
+}
+
 TEST(PairFormFactors, AreTheSameBitsForAnyNumberOfThreads) {
   const auto scene = box_in_cube(4, 2, turned).scene();
   const FormFactors one = pair_form_factors(*scene, {.threads = 1});

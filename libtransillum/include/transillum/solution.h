@@ -51,7 +51,8 @@ struct RefinementRound {
   std::int64_t patches = 0;  ///< patches of the scene so far
   /// Root of the sum of squares over patches of the jump times the root of the area
   /// (RefineBy::jump), or of what the functions of a patch cannot represent (RefineBy::error);
-  /// relative to the same root for the radiosity of all patches that emit nothing
+  /// relative to the same root for the radiosity of all patches that emit nothing; of the color
+  /// channel where that is largest
   double measure = 0;
   double seconds = 0;  ///< wall time of the round
 };

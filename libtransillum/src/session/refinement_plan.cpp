@@ -31,15 +31,23 @@ constexpr double growth = 2;
 /// the rest, the others are left alone, though there would be room.
 constexpr double negligible = 1e-3;
 
-/// Integral of B², by channel, over all patches that emit nothing; over all if each emits.
+/// The light that jumps and errors are relative to: the integral of B², by channel, over all
+/// patches that emit nothing, or of what the others reflect, where that is more; of B² over all if
+/// each emits.
 Rgb square_integral(const Solution& solution) {
-  Rgb passive, all;
-  for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
+  const Scene& scene = *solution.scene;
+  Rgb passive, of_sources, all;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const Rgb square = square_integral(solution, i);
     all = all + square;
-    passive = passive + (max_abs(solution.scene->exitance(i)) > 0 ? Rgb{} : square);
+    if (max_abs(scene.exitance(i)) > 0) {
+      const Rgb reflected = at(solution.radiosity, i) - scene.exitance(i);
+      of_sources = of_sources + scene.patch(i).area * (reflected * reflected);
+    } else {
+      passive = passive + square;
+    }
   }
-  return max_abs(passive) > 0 ? passive : all;
+  return max_abs(passive) > 0 ? largest_of(passive, of_sources) : all;
 }
 
 std::vector<Rgb> squares_by_jump(const Solution& solution, const Cancellation& cancellation) {
@@ -206,7 +214,8 @@ const RefinementRound& RefinementPlan::assess(const Solution& solution, double s
 
 bool RefinementPlan::divide_worst(const Cancellation& cancellation) {
   // Jumps and errors below the tolerance may be left over by the iteration.
-  if (rounds_.back().measure <= std::max(refine_.until, options_.tolerance)) {
+  const double measure = rounds_.back().measure;
+  if (!std::isfinite(measure) || measure <= std::max(refine_.until, options_.tolerance)) {
     finish();
     return false;
   }

@@ -148,7 +148,7 @@ std::vector<double> exact_form_factors(const Scene& scene, PatchId i,
   for (PatchId j = 0; j < scene.patch_count(); ++j) {
     check();
     if (j != i) {
-      at(factors, j) = exchange(i, j, check).area / area;
+      at(factors, j) = exchange.area_between(i, j, check) / area;
     }
     if (progress && j % 64 == 0) {
       progress(static_cast<double>(j) / scene.patch_count());

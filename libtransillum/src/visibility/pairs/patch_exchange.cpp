@@ -414,21 +414,28 @@ void ExchangeFinder::add_partial(const FacingPolygons& facing, const Numbers& bl
 double ExchangeFinder::seen_by_enough(PointQuadrature& by_points, const Corners& cell,
                                       int divisions, const PointSums& sums, double exact,
                                       double smaller) const {
-  // With the usual density of 32: 0.2 % of what is seen, or a form factor of 1e-5.
+  // Estimated errors, with the usual density of 32: 0.2 % of what is seen, or a form factor of
+  // 1e-5.
   constexpr double tolerated_part = 2, tolerated_factor = 1e-2;
   constexpr int most_doublings = 3;
   const double scale = 1 / (density_ * density_), least = scale * tolerated_factor * smaller;
+  const double most_divisions = 4 * std::max(density_, 1.0);
   double seen = seen_part(sums, exact);
-  // A single point is compared with three, others with a quarter of them.
+  const auto is_enough = [&](double fewer, double more) {
+    return more > 0 || fewer > 0
+               ? std::abs(more - fewer) <= 3 * std::max(scale * tolerated_part * more, least)
+               : by_points.unseen(cell, divisions) <= 3 * least;
+  };
+  // A single point is compared with three, others with about a quarter of them.
   bool is_known = exact <= least;
   if (!is_known && divisions > 0) {
-    const double fewer = seen_part(by_points(cell, divisions / 2), exact);
-    is_known = std::abs(seen - fewer) <= 3 * std::max(scale * tolerated_part * seen, least);
+    is_known = is_enough(seen_part(by_points(cell, divisions / 2), exact), seen);
   }
-  for (int doublings = 0; !is_known && doublings < most_doublings; ++doublings) {
+  for (int doublings = 0; !is_known && doublings < most_doublings && divisions < most_divisions;
+       ++doublings) {
     divisions = std::max(1, 2 * divisions);
     const double more = seen_part(by_points(cell, divisions), exact);
-    is_known = std::abs(more - seen) <= 3 * std::max(scale * tolerated_part * more, least);
+    is_known = is_enough(seen, more);
     seen = more;
   }
   return seen;
@@ -538,6 +545,10 @@ PatchExchange ExchangeFinder::operator()(PatchId i, PatchId j, const std::functi
   return between(i, j, nullptr, {true, tick, receiver});
 }
 
+double ExchangeFinder::area_between(PatchId i, PatchId j, const std::function<void()>& tick) const {
+  return between(i, j, nullptr, {false, tick, nullptr}).area;
+}
+
 TransferMoments ExchangeFinder::moments_between(PatchId i, PatchId j,
                                                 const std::vector<LinearBasis>& bases,
                                                 const Numbers* among,
@@ -594,6 +605,11 @@ void ExchangeFinder::for_each_after(
       if (exchange.area > 0) {
         TransferMoments moments =
             bases.empty() ? TransferMoments() : moments_between(i, j, bases, among, tick);
+        // Past blockers the area may be by more points, and the others are of the same light.
+        const double by_points = moments.of(0, 0);
+        for (double& value : moments.value) {
+          value *= !exchange.whole && by_points > 0 ? exchange.area / by_points : 1;
+        }
         moments.of(0, 0) = exchange.area;
         visit(j, exchange, moments);
       }

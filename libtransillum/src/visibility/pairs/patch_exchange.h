@@ -74,9 +74,12 @@ class ExchangeFinder {
   /// patch, also where nothing blocks; null: moments are not computed
   PatchExchange operator()(PatchId i, PatchId j, const std::function<void()>& tick = {},
                            const LinearBasis* receiver = nullptr) const;
+  /// The area alone, m², past blockers by as many points as its error takes, as in
+  /// for_each_after().
+  double area_between(PatchId i, PatchId j, const std::function<void()>& tick) const;
   /// Calls visit(j, exchange, moments) for the patches j > i with which i exchanges light, in
   /// order. Faster than pair by pair: blockers are first found for all patches of a face, and no
-  /// error is estimated. The moments are T^ab(i,j) over all directions, T^00 being the area. The
+  /// error is returned. The moments are T^ab(i,j) over all directions, T^00 being the area. The
   /// others are found by points of one patch, also where nothing blocks; of the other one
   /// exactly.
   /// @param bases of all patches; empty: T^00 alone is found
