@@ -425,8 +425,9 @@ TEST_F(MapFiles, SvgHasTheRequestedColors) {
 }
 
 TEST_F(MapFiles, SvgHasTheRequestedSize) {
-  for (const int size : {300, 1200, 5000}) {
+  for (const int size : {200, 205, 300, 1200, 5000, 8192}) {
     const auto svg = parsed(written("m.svg", of_floor(), {.size = size}));
+    EXPECT_GT(pixels_per_meter(*svg), 5) << size;
     const double width = std::stod(attribute(*svg, "width"));
     const double height = std::stod(attribute(*svg, "height"));
     EXPECT_NEAR(std::max(width, height), std::max(size, 470), 1) << width << " x " << height;

@@ -111,6 +111,10 @@ class ProgressLineTest : public QObject {
     line.show_state(RunState::running);
     line.show_snapshot(snapshot);
     QCOMPARE(bar.maximum(), bar.minimum());
+    line.show_state(RunState::paused);
+    QVERIFY(bar.maximum() > bar.minimum());
+    QCOMPARE(bar.value(), 0);
+    line.show_state(RunState::running);
     snapshot->progress.direction = 5;
     line.show_snapshot(snapshot);
     QCOMPARE(bar.value(), 5);

@@ -3,6 +3,7 @@
 
 #include <QFileInfo>
 #include <QProcessEnvironment>
+#include <chrono>
 
 #include "support/wait_until.h"
 
@@ -11,7 +12,9 @@ namespace transillum::viewer::test {
 WindowManager::WindowManager(const QString& program) {
   const QString begun = folder_.filePath("begun");
   QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
-  environment.insert("XDG_CACHE_HOME", folder_.path());
+  for (const char* variable : {"XDG_CACHE_HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME"}) {
+    environment.insert(variable, folder_.path());
+  }
   process_.setProcessEnvironment(environment);
   process_.setProcessChannelMode(QProcess::ForwardedChannels);
   // Openbox runs the command when it manages the display.

@@ -3,7 +3,6 @@
 
 #include <QProcess>
 #include <QTemporaryDir>
-#include <string>
 
 namespace transillum::viewer::test {
 
@@ -19,7 +18,7 @@ class WindowManager {
   bool runs() const { return runs_; }
 
  private:
-  QTemporaryDir folder_;  ///< its cache, and the file that says that it has begun
+  QTemporaryDir folder_;  ///< its cache and settings, and the file that says that it has begun
   QProcess process_;
   bool runs_ = false;
 };

@@ -168,7 +168,8 @@ void ProgressLine::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot)
 
 void ProgressLine::show_passes(const SolveProgress& progress, bool between_iterations) {
   const bool renews = traits_of(snapshot_->options.scheme).renews_directions;
-  const bool is_full = progress.iteration > 0 && progress.direction == 0;
+  const bool is_full =
+      state_ == RunState::finished && progress.iteration > 0 && progress.direction == 0;
   // Iterations without passes take a time that is not known before: a bar without a value.
   bar_->setRange(0, between_iterations && !renews ? 0 : std::max(progress.passes, 1));
   bar_->setValue(between_iterations ? 0 : is_full ? progress.passes : progress.direction);

@@ -370,7 +370,7 @@ void ExportActions::choose_map() {
 }
 
 void ExportActions::choose_charts() {
-  write_chosen(tr("Convergence charts"), tr("Vector graphics (*.svg);;Pictures (*.png)"),
+  write_chosen(tr("Convergence charts"), tr("Vector graphics (*.svg *.pdf);;Pictures (*.png)"),
                name_with("-convergence.svg"), [this](const QString& path) { write_charts(path); });
 }
 

@@ -80,8 +80,7 @@ class MapPage {
     set(color, opacity);
     cairo_fill(cairo_);
   }
-  void fill_box(double left, double top, double width, double height, double radius,
-                const Color8& color) {
+  void add_box(double left, double top, double width, double height, double radius) {
     const double quarter = std::numbers::pi / 2;
     const double right = left + width - radius, bottom = top + height - radius;
     cairo_new_path(cairo_);
@@ -90,13 +89,13 @@ class MapPage {
     cairo_arc(cairo_, left + radius, bottom, radius, quarter, 2 * quarter);
     cairo_arc(cairo_, left + radius, top + radius, radius, 2 * quarter, 3 * quarter);
     cairo_close_path(cairo_);
-    set(color);
-    cairo_fill(cairo_);
   }
 
   void draw_map() {
     const MapLayout& layout = figure_.layout;
-    fill_box(figure_.left, MapFigure::header, layout.width, layout.height, 4, map_colors::ground);
+    add_box(figure_.left, MapFigure::header, layout.width, layout.height, 4);
+    set(map_colors::ground);
+    cairo_fill(cairo_);
     fill(map_.window, map_colors::nothing);
     draw_patches();
     for (const VisibilityMap::Polygon& polygon : map_.pixels.differences) {
@@ -166,8 +165,13 @@ class MapPage {
     text("v", x + 7, y - 13, look);
   }
   void draw_legend() {
+    cairo_set_line_width(cairo_, 0.5);
     for (const MapFigure::LegendEntry& entry : figure_.legend) {
-      fill_box(entry.left, figure_.legend_top, 16, 12, 2, entry.color);
+      add_box(entry.left, figure_.legend_top, 16, 12, 2);
+      set(entry.color);
+      cairo_fill_preserve(cairo_);
+      set(map_colors::edge);
+      cairo_stroke(cairo_);
       text(entry.label, entry.left + 22, figure_.legend_top + 10.5);
     }
   }

@@ -14,6 +14,8 @@ namespace transillum {
 namespace {
 
 constexpr double least_width = 470;
+/// Least height of the room for the map, so that even the smallest figure shows it.
+constexpr double least_map_height = 64;
 /// Upper bound of the mean width of the title's bold letters, pixels.
 constexpr double title_letter = 13;
 
@@ -109,7 +111,8 @@ std::vector<MapFigure::LegendEntry> legend_of(const Scene& scene, const Visibili
 
 MapFigure::MapFigure(const Scene& scene, const VisibilityMap& map, const MapPictureOptions& options)
     : in_pixels(map.pixels.side > 0),
-      layout(fit_map(map, options.size - 2 * padding, options.size - header - footer)) {
+      layout(fit_map(map, options.size - 2 * padding,
+                     std::max(options.size - header - footer, least_map_height))) {
   width = std::max(layout.width + 2 * padding, in_pixels ? least_width + 130 : least_width);
   height = layout.height + header + footer;
   left = (width - layout.width) / 2;
