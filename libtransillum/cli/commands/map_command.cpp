@@ -122,6 +122,17 @@ void add_pixel_options(CLI::App& command, MapCall& call) {
   command.add_flag("--difference", call.difference, "mark pixels that differ from the exact map");
 }
 
+/// The title and the legend of a figure take 470 pixels, or 600 with the legend of pixels.
+void check_size(const MapCall& call, const std::string& file) {
+  const double least = call.is_exact() ? 12.5 : 16;
+  if (call.centimeters && *call.centimeters < least && is_map_picture(file) &&
+      !is_screen_picture(file)) {
+    throw InputError(
+        fmt::format("--size: {:g}cm is too small for {}: its title and legend take {:g}cm",
+                    *call.centimeters, file, least));
+  }
+}
+
 void check_options(const MapCall& call) {
   refuse_unused(call.scene, {call.scene.run});
   refuse_unless(!call.is_exact(), *call.command, "--difference",
@@ -133,6 +144,7 @@ void check_options(const MapCall& call) {
   const bool pictures = std::any_of(call.out.begin(), call.out.end(), is_map_picture);
   refuse_unless(pictures, *call.command, "--size", "used only with .svg, .pdf and .png files");
   for (const std::string& file : call.out) {
+    check_size(call, file);
     call.picture_of(file).validate();
   }
 }
