@@ -100,27 +100,6 @@ class ProgressLineTest : public QObject {
     QVERIFY(!bar.isHidden());
   }
 
-  // A full bar would say that the solve is over.
-  void a_bar_between_iterations_has_no_value() {
-    const auto snapshot = reached("back wall");
-    snapshot->progress.finished = false;
-    snapshot->progress.iteration = 3;
-    snapshot->progress.direction = 0;
-    ProgressLine line;
-    const auto& bar = *line.findChild<QProgressBar*>("progress");
-    line.show_state(RunState::running);
-    line.show_snapshot(snapshot);
-    QCOMPARE(bar.maximum(), bar.minimum());
-    line.show_state(RunState::paused);
-    QVERIFY(bar.maximum() > bar.minimum());
-    QCOMPARE(bar.value(), 0);
-    line.show_state(RunState::running);
-    snapshot->progress.direction = 5;
-    line.show_snapshot(snapshot);
-    QCOMPARE(bar.value(), 5);
-    QCOMPARE(bar.maximum(), snapshot->progress.passes);
-  }
-
   void a_surface_in_the_dark_is_said_to_be_so() {
     const auto snapshot = reached("cellar");
     snapshot->accuracy->is_dark = true;

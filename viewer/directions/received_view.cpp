@@ -58,8 +58,13 @@ ReceivedView::ReceivedView(Focus& focus, Selection& selection, PerDirectionVisib
     request_visibility();
   });
   connect(&focus_, &Focus::moved, this, &ReceivedView::show_position);
+  connect(view_->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
+    if (!marks_rows_ && !marked_.empty()) {
+      marked_.clear();
+      refresh_timer_->start();
+    }
+  });
   connect(view_, &QTableView::clicked, this, [this](const QModelIndex& index) {
-    marked_.clear();
     const PatchId source = table_->light(index.row()).brightest;
     if (index.column() == ReceivedTable::of_brightest && source != no_patch) {
       selection_.select(source);
@@ -87,6 +92,7 @@ void ReceivedView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot)
 
 void ReceivedView::clear() {
   snapshot_ = nullptr;
+  marked_.clear();
   refresh_timer_->stop();
   show_lights();
 }
@@ -155,7 +161,7 @@ void ReceivedView::show_lights() {
                          ? tr(" Computed: %1 of %2 directions.")
                                .arg(count_text(count), count_text(directions_done()))
                          : tr(" Double-click a row to go to its direction.")) +
-                    mark_rows());
+                    mark_rows(count == directions_done()));
 }
 
 void ReceivedView::mark_sources(const std::vector<PatchId>& sources) {
@@ -164,7 +170,7 @@ void ReceivedView::mark_sources(const std::vector<PatchId>& sources) {
   show_lights();
 }
 
-QString ReceivedView::mark_rows() {
+QString ReceivedView::mark_rows(bool complete) {
   if (marked_.empty()) {
     return {};
   }
@@ -175,9 +181,11 @@ QString ReceivedView::mark_rows() {
       rows.select(table_->index(row, 0), table_->index(row, ReceivedTable::column_count - 1));
     }
   }
+  marks_rows_ = true;
   view_->selectionModel()->select(rows, QItemSelectionModel::ClearAndSelect);
+  marks_rows_ = false;
   if (rows.isEmpty()) {
-    return tr(" In no direction is the source chosen the brightest.");
+    return complete ? tr(" In no direction is the source chosen the brightest.") : QString();
   }
   if (reveals_marked_) {
     view_->scrollTo(rows.indexes().front());

@@ -40,7 +40,8 @@ class ReceivedView : public QWidget {
   void show_lights();
   void show_position();
   /// Returns what the caption adds about the marked rows.
-  QString mark_rows();
+  /// @param complete  all directions processed are in the table
+  QString mark_rows(bool complete);
   /// Directions of the iteration in focus that have been processed.
   int directions_done() const;
 
@@ -52,6 +53,7 @@ class ReceivedView : public QWidget {
   QTableView* view_;
   ReceivedTable* table_;
   std::vector<PatchId> marked_;  ///< sources whose rows are selected
+  bool marks_rows_ = false;      ///< mark_rows() is selecting
   bool reveals_marked_ = false;  ///< scroll to the first of their rows
   class QTimer* refresh_timer_;  ///< limits how often the table is refilled
 };

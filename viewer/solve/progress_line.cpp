@@ -166,15 +166,6 @@ void ProgressLine::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot)
   show_solve();
 }
 
-void ProgressLine::show_passes(const SolveProgress& progress, bool between_iterations) {
-  const bool renews = traits_of(snapshot_->options.scheme).renews_directions;
-  const bool is_full =
-      state_ == RunState::finished && progress.iteration > 0 && progress.direction == 0;
-  // Iterations without passes take a time that is not known before: a bar without a value.
-  bar_->setRange(0, between_iterations && !renews ? 0 : std::max(progress.passes, 1));
-  bar_->setValue(between_iterations ? 0 : is_full ? progress.passes : progress.direction);
-}
-
 void ProgressLine::show_solve() {
   if (!snapshot_ || state_ == RunState::loading) {
     return;
@@ -190,7 +181,9 @@ void ProgressLine::show_solve() {
     show_stage_of_lobes(progress);
     return;
   }
-  show_passes(progress, running && !within_iteration && progress.iteration > 0);
+  bar_->setRange(0, std::max(progress.passes, 1));
+  bar_->setValue(!within_iteration && progress.iteration > 0 ? progress.passes
+                                                             : progress.direction);
 
   const auto& rounds = snapshot_->statistics.refinement;
   const auto& total = snapshot_->total;

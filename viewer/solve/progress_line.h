@@ -25,8 +25,6 @@ class ProgressLine : public QWidget {
 
  private:
   void show_solve();
-  /// @param between_iterations  while the solve runs
-  void show_passes(const SolveProgress& progress, bool between_iterations);
   void show_stage_of_lobes(const SolveProgress& progress);
 
   RunState state_ = RunState::empty;
