@@ -20,10 +20,10 @@ constexpr std::size_t largest_sample = 1024;
 /// Smaller samples are swept along all normals; in them, planes across a line between two polygons
 /// are hardly ever the best.
 constexpr std::size_t smallest_for_choice = 64;
-/// In larger ones every third polygon is swept along all normals, and all along the best of
+/// In larger ones every fourth polygon is swept along all normals, and all along the best of
 /// these.
-constexpr std::size_t step_for_choice = 3;
-constexpr std::size_t kept_normals = 4;
+constexpr std::size_t step_for_choice = 4;
+constexpr std::size_t kept_normals = 8;
 constexpr std::size_t polygon_normals = 8;
 constexpr std::size_t edge_normals = 8;
 constexpr std::size_t line_normals = 8;

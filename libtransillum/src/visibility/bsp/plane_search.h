@@ -14,7 +14,7 @@ namespace transillum {
 /// Finds a plane that orders many polygons with few cuts.
 ///
 /// For each of a few dozen normals (the axes, normals of polygons, normals to two edges, lines
-/// between polygons), in large sets the four that a third of the polygons chooses, all offsets
+/// between polygons), in large sets the eight that a quarter of the polygons chooses, all offsets
 /// are compared: the intervals that the polygons cover along the normal are counted in bins; bins
 /// whose counts allow a better plane than the best so far are sorted. Planes in the gaps between
 /// groups and planes of polygons are thus compared by the same cost. Large sets are represented by
