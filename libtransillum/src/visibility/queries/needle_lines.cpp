@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "transillum/at.h"
 
@@ -124,8 +125,22 @@ NeedleLines::Pair NeedleLines::lines_of(PatchId patch) const {
       right = right || side < 0;
     }
     pair.sides[m] = static_cast<std::int8_t>(left == right ? 0 : left ? 1 : -1);
+    pair.beside[m] = other_side(pair.lines[m], pair.sides[m]);
   }
   return pair;
+}
+
+NeedleLines::HalfPlane NeedleLines::other_side(const GridLine& line, int side) {
+  const auto dx = static_cast<double>(line.b.x - line.a.x);
+  const auto dy = static_cast<double>(line.b.y - line.a.y);
+  const double length = std::hypot(dx, dy) * side;
+  if (length == 0) {
+    return {};
+  }
+  // To the right where the patch lies left.
+  const double x = dy / length, y = -dx / length;
+  const double on_line = x * static_cast<double>(line.a.x) + y * static_cast<double>(line.a.y);
+  return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(on_line) - rounding};
 }
 
 void NeedleLines::begin(std::int32_t fragment) {
@@ -139,19 +154,38 @@ void NeedleLines::begin(std::int32_t fragment) {
   }
 }
 
-bool NeedleLines::patches_are_apart(std::int32_t fragment) const {
-  const PatchId patch = at(projected_.fragments, fragment).patch;
-  return separates(at(lines_, patch), own_) || separates(at(lines_, own_), patch);
+bool NeedleLines::lines_separate(std::int32_t fragment) const {
+  const ProjectedFragments::Fragment& other = at(projected_.fragments, fragment);
+  if (separates(at(lines_, other.patch), own_, count_,
+                [&](std::size_t k) { return std::pair(x_[k], y_[k]); })) {
+    return true;
+  }
+  const GridPoint* const corners = projected_.corners.data() + other.begin;
+  return separates(at(lines_, own_), other.patch, other.end - other.begin, [&](std::size_t k) {
+    return std::pair(static_cast<float>(corners[k].x), static_cast<float>(corners[k].y));
+  });
 }
 
-/// Whether a patch lies on the other side of a line than the patch of the pair.
-bool NeedleLines::separates(const Pair& pair, PatchId patch) const {
-  const std::span<const PointId> corners = scene_.outline(patch);
+/// Whether a fragment, given by its patch and corners, lies on the other side of a line than the
+/// patch of the pair.
+template <class Corner>
+bool NeedleLines::separates(const Pair& pair, PatchId patch, std::size_t corners,
+                            Corner corner) const {
   for (std::size_t m = 0; m < pair.lines.size(); ++m) {
-    const int side = pair.sides[m];
-    if (side != 0 && std::all_of(corners.begin(), corners.end(), [&](PointId p) {
-          return side_of(pair.lines[m], at(projected_.grid.points, p)) != side;
-        })) {
+    const HalfPlane& side = pair.beside[m];
+    float least = HUGE_VALF;
+    for (std::size_t k = 0; k < corners; ++k) {
+      const auto [x, y] = corner(k);
+      least = std::min(least, side.x * x + side.y * y - side.beyond);
+    }
+    if (least > 2 * rounding) {
+      return true;
+    }
+    const auto is_beside = [&](PointId p) {
+      return side_of(pair.lines[m], at(projected_.grid.points, p)) != pair.sides[m];
+    };
+    const std::span<const PointId> outline = scene_.outline(patch);
+    if (least > 0 && std::all_of(outline.begin(), outline.end(), is_beside)) {
       return true;
     }
   }

@@ -39,7 +39,7 @@ class NeedleLines {
       low = std::min(low, along);
       high = std::max(high, along);
     }
-    return low > strip.high || high < strip.low || patches_are_apart(fragment);
+    return low > strip.high || high < strip.low || lines_separate(fragment);
   }
 
  private:
@@ -47,17 +47,25 @@ class NeedleLines {
   struct Strip {
     float x = 0, y = 0, low = -HUGE_VALF, high = HUGE_VALF;
   };
+  /// The other side of a line than its patch: the points p with (x, y) * p > beyond; where that is
+  /// less than 2 `rounding` more, floats do not decide. By default there are none.
+  struct HalfPlane {
+    float x = 0, y = 0, beyond = HUGE_VALF;
+  };
   /// The lines of the two longest edges of a patch that is thin, which lies on one side of each.
   struct Pair {
     std::array<GridLine, 2> lines;
     /// 1: the patch lies left of the line; -1: right; 0: there is no line
     std::array<std::int8_t, 2> sides{};
+    std::array<HalfPlane, 2> beside;  ///< the other sides of the lines
   };
 
   Strip strip_of(const ProjectedFragments::Fragment& fragment) const;
   Pair lines_of(PatchId patch) const;
-  bool patches_are_apart(std::int32_t fragment) const;
-  bool separates(const Pair& pair, PatchId patch) const;
+  static HalfPlane other_side(const GridLine& line, int side);
+  bool lines_separate(std::int32_t fragment) const;
+  template <class Corner>
+  bool separates(const Pair& pair, PatchId patch, std::size_t corners, Corner corner) const;
 
   const Scene& scene_;
   const ProjectedFragments& projected_;
