@@ -102,6 +102,23 @@ class PatchDivision {
     return make([&](PatchId i) { return at(divided, i) ? cells_of(i) : std::vector<Outline>(); });
   }
 
+  std::shared_ptr<const Scene> make_united(std::span<const UnitedPatch> patches) {
+    auto scene = std::shared_ptr<Scene>(new Scene(whole_, Scene::WithoutPatches{}));
+    scene_ = scene.get();
+    for (const UnitedPatch& patch : patches) {
+      if (scene->patches_.size() % patches_between_checks == 0) {
+        cancellation_.throw_if_canceled();
+      }
+      if (patch.outline.empty()) {
+        copy(patch.like);
+      } else {
+        add(patch.like, patch.outline, scene->patches_.size());
+      }
+    }
+    scene->points_ = table_.take();
+    return scene;
+  }
+
   DividedScene make_along(std::span<const PatchCut> cuts) {
     std::map<Outline, std::vector<PatchCut>> by_points;
     for (const PatchCut& cut : cuts) {
@@ -359,6 +376,11 @@ DividedScene divide(const Scene& scene, std::span<const PatchId> patches,
 DividedScene divide_along(const Scene& scene, std::span<const PatchCut> cuts,
                           const Cancellation& cancellation) {
   return PatchDivision(scene, cancellation).make_along(cuts);
+}
+
+std::shared_ptr<const Scene> with_united(const Scene& scene, std::span<const UnitedPatch> patches,
+                                         const Cancellation& cancellation) {
+  return PatchDivision(scene, cancellation).make_united(patches);
 }
 
 }  // namespace transillum

@@ -41,4 +41,15 @@ struct PatchCut {
 DividedScene divide_along(const Scene& scene, std::span<const PatchCut> cuts,
                           const Cancellation& cancellation = {});
 
+/// A polygon in place of patches of a scene that it consists of.
+struct UnitedPatch {
+  PatchId like = no_patch;       ///< one of them: its face, material, group and normal
+  std::vector<PointId> outline;  ///< convex; empty: the patch as it is
+};
+/// A scene with the points of another, and other patches.
+/// @param patches in the order of the result
+/// @throws Canceled
+std::shared_ptr<const Scene> with_united(const Scene& scene, std::span<const UnitedPatch> patches,
+                                         const Cancellation& cancellation = {});
+
 }  // namespace transillum

@@ -80,9 +80,15 @@ TransferEngine engine_of(std::shared_ptr<const FastScene> shared) {
   };
 }
 
+/// @param by_blocks whether patches of one face may be queried together
 std::shared_ptr<FastScene> fast_scene(std::shared_ptr<const Scene> scene,
-                                      std::shared_ptr<const BspTree> tree, bool moments) {
-  auto shared = std::make_shared<FastScene>(std::move(scene), std::move(tree));
+                                      std::shared_ptr<const BspTree> tree, bool moments,
+                                      bool by_blocks) {
+  auto blocks = by_blocks ? PatchBlocks::of(*scene) : nullptr;
+  if (blocks) {
+    tree = std::make_shared<const BspTree>(*blocks->scene);
+  }
+  auto shared = std::make_shared<FastScene>(std::move(scene), std::move(tree), std::move(blocks));
   shared->backs_hidden = hides_all_backs(*shared);
   if (moments) {
     shared->bases = std::make_shared<const std::vector<LinearBasis>>(linear_bases(*shared->scene));
@@ -94,13 +100,13 @@ std::shared_ptr<FastScene> fast_scene(std::shared_ptr<const Scene> scene,
 
 TransferEngine fast_engine(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree,
                            bool moments) {
-  return engine_of(fast_scene(std::move(scene), std::move(tree), moments));
+  return engine_of(fast_scene(std::move(scene), std::move(tree), moments, true));
 }
 
 TransferEngine measured_fast_engine(std::shared_ptr<const Scene> scene,
                                     std::shared_ptr<const BspTree> tree, bool moments,
                                     std::vector<PatchCost>& costs) {
-  const auto shared = fast_scene(std::move(scene), std::move(tree), moments);
+  const auto shared = fast_scene(std::move(scene), std::move(tree), moments, true);
   const auto pass = std::make_shared<FastPass>(*shared, &costs);
   return [shared, pass](const Vec3& omega, const Cancellation& cancellation) {
     return pass->run(omega, cancellation);
@@ -110,7 +116,7 @@ TransferEngine measured_fast_engine(std::shared_ptr<const Scene> scene,
 TransferEngine fast_patch_engine(std::shared_ptr<const Scene> scene,
                                  std::shared_ptr<const BspTree> tree, PatchId patch, bool moments) {
   // That no backs are seen holds for the whole scene, and so for the fragments in the shaft.
-  const auto shared = fast_scene(std::move(scene), std::move(tree), moments);
+  const auto shared = fast_scene(std::move(scene), std::move(tree), moments, false);
   shared->shaft.emplace(*shared->scene, *shared->tree, patch);
   return engine_of(shared);
 }

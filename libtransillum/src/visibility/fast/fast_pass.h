@@ -26,7 +26,8 @@
 #include "transillum/at.h"
 #include "visibility/fast/candidate_search.h"
 #include "visibility/fast/exchange_rows.h"
-#include "visibility/fast/fragment_moments.h"
+#include "visibility/fast/patch_blocks.h"
+#include "visibility/fast/visible_areas.h"
 #include "visibility/queries/boundary_view.h"
 #include "visibility/queries/cut_corners.h"
 #include "visibility/queries/exact_view.h"
@@ -39,16 +40,28 @@ namespace transillum {
 
 /// Data that all passes share.
 struct FastScene {
-  std::shared_ptr<const Scene> scene;
-  std::shared_ptr<const BspTree> tree;
+  std::shared_ptr<const Scene> scene;         ///< whose patches exchange light
+  std::shared_ptr<const PatchBlocks> blocks;  ///< if set, its scene is queried in place of `scene`
+  std::shared_ptr<const BspTree> tree;        ///< the tree of queried()
   FragmentOutlines outlines;
   bool backs_hidden = false;        ///< fronts_see_no_backs()
   std::optional<PatchShaft> shaft;  ///< if set, only fragments in it take part
   /// Bases of all patches, if passes have moments; else null.
   std::shared_ptr<const std::vector<LinearBasis>> bases;
 
-  FastScene(std::shared_ptr<const Scene> of_scene, std::shared_ptr<const BspTree> of_tree)
-      : scene(std::move(of_scene)), tree(std::move(of_tree)), outlines(*scene, *tree) {}
+  FastScene(std::shared_ptr<const Scene> of_scene, std::shared_ptr<const BspTree> of_tree,
+            std::shared_ptr<const PatchBlocks> of_blocks = nullptr)
+      : scene(std::move(of_scene)),
+        blocks(std::move(of_blocks)),
+        tree(std::move(of_tree)),
+        outlines(queried(), *tree) {
+    if (blocks) {
+      outlines.median_area = FragmentOutlines::median_area_of(*scene);
+      outlines.smallest_part = blocks->smallest_shares();
+    }
+  }
+
+  const Scene& queried() const { return blocks ? *blocks->scene : *scene; }
 };
 
 /// Runs passes, one at a time; reuses its memory from pass to pass.
@@ -59,21 +72,19 @@ class FastPass {
       : shared_(shared),
         costs_(costs),
         bins_(projected_, shared.backs_hidden),
-        search_(*shared.scene, bins_, projected_),
+        search_(shared.queried(), bins_, projected_),
         cut_corners_(shared.outlines, projected_),
-        exact_view_(shared.outlines, projected_, transfers_.counts, shared.bases != nullptr),
+        exact_view_(shared.outlines, projected_, transfers_.counts,
+                    shared.bases != nullptr || shared.blocks != nullptr),
         boundary_view_(projected_, cut_corners_, transfers_.counts, shared.backs_hidden,
                        BoundaryView::Frame::plane),
         needle_view_(projected_, cut_corners_, transfers_.counts, shared.backs_hidden,
-                     BoundaryView::Frame::needle) {
-    if (shared.bases) {
-      moments_.emplace(*shared.scene, shared.bases, projected_);
-    }
-  }
+                     BoundaryView::Frame::needle),
+        visible_(*shared.scene, shared.blocks.get(), shared.bases, projected_) {}
 
   Transfers run(const Vec3& omega, const Cancellation& cancellation) {
     const Clock::time_point start = Clock::now();
-    projected_.project(*shared_.scene, *shared_.tree, shared_.outlines, omega, cancellation,
+    projected_.project(shared_.queried(), *shared_.tree, shared_.outlines, omega, cancellation,
                        shared_.shaft ? &*shared_.shaft : nullptr);
     const Clock::time_point ordered = Clock::now();
     bins_.fill(cancellation);
@@ -114,17 +125,6 @@ class FastPass {
     return sum;
   }
 
-  /// The moments with receiver and source exchanged.
-  static TransferMoments transposed(const TransferMoments& moments) {
-    TransferMoments turned;
-    for (std::size_t a = 0; a < 3; ++a) {
-      for (std::size_t b = 0; b < 3; ++b) {
-        turned.of(a, b) = moments.of(b, a);
-      }
-    }
-    return turned;
-  }
-
   bool nothing_is_covered_twice() const {
     // Corners are about a grid unit off their lines: allows 2^10 units times the scene's 2^60.
     const double rounding = 0x1p10 * 0x1p60 * area_unit_;
@@ -163,34 +163,24 @@ class FastPass {
     surely_resolved_ = BoundaryView::largest_error(largest_bin_) / ProjectedFragments::accuracy;
     seen_from_front_.assign(projected_.fragments.size(), 0);
     area_unit_ = projected_.grid.unit * projected_.grid.unit;
-    for (const ProjectedFragments::Fragment& fragment : projected_.fragments) {
+    if (visible_.have_moments()) {
+      found_moments_.clear();
+      transfers_.forward_moments.resize(patches);
+      transfers_.backward_moments.resize(patches);
+    }
+    visible_.begin([this](const ProjectedFragments::Fragment& fragment, PatchId patch, double area,
+                          const std::array<double, 2>& moments) {
       auto& side = fragment.front ? transfers_.forward : transfers_.backward;
-      at(side, fragment.patch).projected += area_unit_ * fragment.area;
-    }
-    if (moments_) {
-      begin_moments();
-    }
-  }
-
-  void begin_moments() {
-    moments_->begin();
-    found_moments_.clear();
-    transfers_.forward_moments.resize(transfers_.forward.size());
-    transfers_.backward_moments.resize(transfers_.backward.size());
-    for (const ProjectedFragments::Fragment& fragment : projected_.fragments) {
-      auto& side = fragment.front ? transfers_.forward_moments : transfers_.backward_moments;
-      const std::array<double, 2> moments = moments_->of_fragment(fragment);
-      for (std::size_t a = 0; a < 2; ++a) {
-        at(side, fragment.patch).projected[a] += moments[a];
+      at(side, patch).projected += area_unit_ * area;
+      if (visible_.have_moments()) {
+        auto& of_side = fragment.front ? transfers_.forward_moments : transfers_.backward_moments;
+        for (std::size_t a = 0; a < 2; ++a) {
+          at(of_side, patch).projected[a] += moments[a];
+        }
       }
-    }
+    });
   }
 
-  struct VisibleArea {
-    std::int32_t fragment;
-    double area;     ///< square grid units
-    bool too_small;  ///< the fragment is too small for this area to be accurate
-  };
   /// A fragment, and a larger one that it sees, or may see.
   struct SmallerOfTwo {
     std::int32_t smaller, larger;
@@ -208,8 +198,15 @@ class FastPass {
   template <Toward toward>
   void run_queries(const Cancellation& cancellation) {
     std::int32_t queries = 0;
-    for (const FragmentBins::Bin& bin : bins_.bins()) {
-      prefetch(bin);
+    const std::vector<FragmentBins::Bin>& bins = bins_.bins();
+    for (std::size_t b = 0; b < bins.size(); ++b) {
+      const FragmentBins::Bin& bin = bins[b];
+      if (b + 2 < bins.size()) {
+        prefetch_fragments(bins[b + 2]);
+      }
+      if (b + 1 < bins.size()) {
+        prefetch_corners(bins[b + 1]);
+      }
       for (FragmentBins::Entry e = bin.begin; e < bin.end; ++e) {
         const std::int32_t fragment = bins_.fragment(e);
         if (!needs_query(toward, fragment)) {
@@ -228,7 +225,12 @@ class FastPass {
   }
 
   /// The queries use the fragments of a bin in an order that the processor cannot predict.
-  void prefetch(const FragmentBins::Bin& bin) const {
+  void prefetch_fragments(const FragmentBins::Bin& bin) const {
+    for (FragmentBins::Entry e = bin.begin; e < bin.end; ++e) {
+      __builtin_prefetch(projected_.fragments.data() + bins_.fragment(e));
+    }
+  }
+  void prefetch_corners(const FragmentBins::Bin& bin) const {
     for (FragmentBins::Entry e = bin.begin; e < bin.end; ++e) {
       const ProjectedFragments::Fragment& fragment = at(projected_.fragments, bins_.fragment(e));
       __builtin_prefetch(projected_.corners.data() + fragment.begin);
@@ -241,26 +243,25 @@ class FastPass {
     if (toward == Toward::source) {
       return fragment.front;
     }
-    return !fragment.front && fragment.area - at(seen_from_front_, k) > 0x1p-43 * fragment.area;
+    // A block is larger than its patches, and so is the rounding of its area.
+    const double rounding = 0x1p-43 * fragment.area * projected_.smallest_part(fragment.patch);
+    return !fragment.front && fragment.area - at(seen_from_front_, k) > rounding;
   }
 
   template <Toward toward>
   void run_query(std::int32_t fragment, const FragmentBins::Bin* bin, FragmentBins::Entry entry) {
     find_visible<toward>(fragment, bin, entry);
-    for (std::size_t k = 0; k < visible_areas_.size(); ++k) {
-      const VisibleArea& visible = visible_areas_[k];
+    for (std::size_t k = 0; k < visible_.areas().size(); ++k) {
+      const VisibleAreas::Area& visible = visible_.areas()[k];
       if (visible.too_small) {
         smaller_.push_back({visible.fragment, fragment});
-        continue;
-      }
-      accumulate<toward>(fragment, visible);
-      if (moments_) {
-        accumulate_moments<toward>(fragment, visible.fragment, visible_moments_[k]);
+      } else {
+        accumulate<toward>(visible.fragment, k, false);
       }
     }
   }
 
-  /// Fills visible_areas_.
+  /// Fills visible_.
   template <Toward toward>
   void find_visible(std::int32_t fragment, const FragmentBins::Bin* bin,
                     FragmentBins::Entry entry) {
@@ -268,22 +269,25 @@ class FastPass {
       find_by_views<toward>(fragment, bin, entry);
       return;
     }
+    PatchCost spent;
     const std::int64_t pairs = transfers_.counts.pairs;
     const Clock::time_point start = Clock::now();
     find_by_views<toward>(fragment, bin, entry);
-    PatchCost& cost = at(*costs_, at(projected_.fragments, fragment).patch);
-    cost.seconds += std::chrono::duration<double>(Clock::now() - start).count();
-    ++cost.queries;
-    cost.candidates += transfers_.counts.pairs - pairs;
+    spent.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    spent.queries = 1;
+    spent.candidates = transfers_.counts.pairs - pairs;
     if (boundary_view_.failed()) {
-      ++at(cost.repeated, boundary_view_.failure());
+      ++at(spent.repeated, boundary_view_.failure());
       if (needle_view_.failed()) {
-        ++at(cost.exact, needle_view_.failure());
+        ++at(spent.exact, needle_view_.failure());
       }
     }
+    visible_.share_cost(
+        at(projected_.fragments, fragment), spent,
+        [this](PatchId patch, const PatchCost& cost) { at(*costs_, patch) += cost; });
   }
 
-  /// The first view that does not fail fills visible_areas_.
+  /// The first view that does not fail fills visible_.
   template <Toward toward>
   void find_by_views(std::int32_t fragment, const FragmentBins::Bin* bin,
                      FragmentBins::Entry entry) {
@@ -299,8 +303,7 @@ class FastPass {
   template <Toward toward, class View>
   bool query_with(View& view, std::int32_t fragment, const FragmentBins::Bin* bin,
                   FragmentBins::Entry entry) {
-    visible_areas_.clear();
-    visible_moments_.clear();
+    visible_.clear();
     if (bin) {
       view.begin_query(fragment, *bin);
     } else {
@@ -344,7 +347,7 @@ class FastPass {
       if (area > 0 || view.is_too_small()) {
         const bool too_small = in_one_bin ? is_too_small_in_bins(candidate) : view.is_too_small();
         if (area > 0 || too_small) {
-          add_visible(view, fragment, {candidate, area, too_small});
+          visible_.add(view, fragment, {candidate, area, too_small});
         }
       }
       if (view.is_crowded() && !divide(view)) {
@@ -355,20 +358,6 @@ class FastPass {
       }
     }
     return true;
-  }
-
-  template <class View>
-  void add_visible(const View& view, std::int32_t fragment, const VisibleArea& visible) {
-    visible_areas_.push_back(visible);
-    if (!moments_) {
-      return;
-    }
-    visible_moments_.emplace_back();
-    if (visible.area > 0) {
-      visible_moments_.back() = moments_->of_overlap(
-          view, at(projected_.fragments, fragment).patch,
-          at(projected_.fragments, visible.fragment).patch, area_unit_ * visible.area);
-    }
   }
 
   /// Whether a candidate is too small beside a fragment that is queried bin by bin: the same for
@@ -407,16 +396,13 @@ class FastPass {
       const auto first = smaller_.begin() + static_cast<std::ptrdiff_t>(begin);
       const auto last = smaller_.begin() + static_cast<std::ptrdiff_t>(end);
       const auto accumulate_found = [&] {
-        for (std::size_t k = 0; k < visible_areas_.size(); ++k) {
-          const VisibleArea& visible = visible_areas_[k];
+        for (std::size_t k = 0; k < visible_.areas().size(); ++k) {
+          const VisibleAreas::Area& visible = visible_.areas()[k];
           if (!(visible.area > 0) ||
               !std::binary_search(first, last, SmallerOfTwo{fragment, visible.fragment})) {
             continue;
           }
-          accumulate<toward>(visible.fragment, {fragment, visible.area, false});
-          if (moments_) {
-            accumulate_moments<toward>(visible.fragment, fragment, transposed(visible_moments_[k]));
-          }
+          accumulate<toward>(fragment, k, true);
         }
       };
       if (bins_.entry_count(fragment) <= max_bins_per_query) {
@@ -433,43 +419,56 @@ class FastPass {
     smaller_.clear();
   }
 
+  /// Counts that a fragment sees `seen`, by the parts of visible area k.
+  /// @param turned whether the area was found by a query of `seen`
   template <Toward toward>
-  void accumulate(std::int32_t fragment, const VisibleArea& visible) {
-    const ProjectedFragments::Fragment& own = at(projected_.fragments, fragment);
-    const ProjectedFragments::Fragment& other = at(projected_.fragments, visible.fragment);
-    const double area = area_unit_ * visible.area;
-    if (toward == Toward::source) {
-      at(transfers_.forward, own.patch).covered += area;
-      if (other.front) {
-        at(transfers_.back_seen, other.patch) += area;
-      } else {
-        at(transfers_.backward, other.patch).covered += area;
-        at(seen_from_front_, visible.fragment) += visible.area;
-        found_.push_back({own.patch, other.patch, area});
+  void accumulate(std::int32_t seen, std::size_t k, bool turned) {
+    const bool seen_front = at(projected_.fragments, seen).front;
+    if (toward == Toward::source && !seen_front) {
+      at(seen_from_front_, seen) += visible_.areas()[k].area;
+    }
+    visible_.for_each_part(k, [&](const VisibleAreas::PatchArea& part,
+                                  const TransferMoments* moments) {
+      const PatchId own = turned ? part.other : part.own, other = turned ? part.own : part.other;
+      accumulate<toward>(own, other, seen_front, area_unit_ * part.area);
+      if (moments != nullptr) {
+        accumulate_moments<toward>(own, other, seen_front,
+                                   turned ? transposed(*moments) : *moments);
       }
-    } else if (!other.front) {
-      at(transfers_.backward, own.patch).covered += area;
-      at(transfers_.back_seen, other.patch) += area;
+    });
+  }
+
+  /// @param area m²
+  template <Toward toward>
+  void accumulate(PatchId own, PatchId other, bool other_front, double area) {
+    if (toward == Toward::source) {
+      at(transfers_.forward, own).covered += area;
+      if (other_front) {
+        at(transfers_.back_seen, other) += area;
+      } else {
+        at(transfers_.backward, other).covered += area;
+        found_.push_back({own, other, area});
+      }
+    } else if (!other_front) {
+      at(transfers_.backward, own).covered += area;
+      at(transfers_.back_seen, other) += area;
     }
   }
 
-  /// The same as accumulate(), for the integrals with basis functions; the exchange is in found_
-  /// already.
+  /// The same for the integrals with basis functions; the exchange is in found_ already.
   template <Toward toward>
-  void accumulate_moments(std::int32_t fragment, std::int32_t visible,
+  void accumulate_moments(PatchId own, PatchId other, bool other_front,
                           const TransferMoments& moments) {
-    const ProjectedFragments::Fragment& own = at(projected_.fragments, fragment);
-    const ProjectedFragments::Fragment& other = at(projected_.fragments, visible);
-    if (toward == Toward::receiver && other.front) {
+    if (toward == Toward::receiver && other_front) {
       return;
     }
-    CoverageMoments& below = toward == Toward::source ? at(transfers_.forward_moments, own.patch)
-                                                      : at(transfers_.backward_moments, own.patch);
-    const bool exchanged = toward == Toward::source && !other.front;
+    CoverageMoments& below = toward == Toward::source ? at(transfers_.forward_moments, own)
+                                                      : at(transfers_.backward_moments, own);
+    const bool exchanged = toward == Toward::source && !other_front;
     for (std::size_t a = 0; a < 2; ++a) {
       below.covered[a] += moments.of(a + 1, 0);
       if (exchanged) {
-        at(transfers_.backward_moments, other.patch).covered[a] += moments.of(0, a + 1);
+        at(transfers_.backward_moments, other).covered[a] += moments.of(0, a + 1);
       }
     }
     if (exchanged) {
@@ -479,7 +478,7 @@ class FastPass {
 
   /// Sorts found_ into transfers_.exchanges.
   void sort_exchanges(const Cancellation& cancellation) {
-    if (!moments_) {
+    if (!visible_.have_moments()) {
       rows_.sort(found_, transfers_.forward.size(), sorted_, transfers_.exchanges, cancellation,
                  [](const Transfer&, bool) {});
       return;
@@ -508,24 +507,22 @@ class FastPass {
   std::vector<double> seen_from_front_;   ///< per fragment: square grid units
   std::vector<Transfer> found_, sorted_;  ///< one entry per visible area
   ExchangeRows rows_;
-  std::vector<VisibleArea> visible_areas_;
   double largest_bin_ = 0;             ///< size, grid units
   double surely_resolved_ = 0;         ///< area that is not too small in any bin
   std::vector<SmallerOfTwo> smaller_;  ///< areas that the smaller fragment finds
   std::vector<std::vector<CandidateSearch::Cursor>>
-      waiting_;  ///< one search per waiting part of the view
-  // With moments: of visible_areas_ and found_; and found_, numbered.
-  std::vector<TransferMoments> visible_moments_, found_moments_;
+      waiting_;                                 ///< one search per waiting part of the view
+  std::vector<TransferMoments> found_moments_;  ///< for each of found_, if there are moments
   std::vector<NumberedTransfer> numbered_, sorted_numbered_;
   Transfers transfers_;
   ProjectedFragments projected_;
-  std::optional<FragmentMoments> moments_;  ///< nothing: passes have no moments
   FragmentBins bins_;
   CandidateSearch search_;
   CutCorners cut_corners_;
   ExactView exact_view_;
   BoundaryView boundary_view_;
   BoundaryView needle_view_;  ///< for fragments that are too thin for boundary_view_
+  VisibleAreas visible_;      ///< found by the current query
 };
 
 }  // namespace transillum

@@ -28,25 +28,35 @@ class FragmentMoments {
         largest_(largest_values(scene, *bases_)),
         patches_(bases_->size()) {}
 
-  /// Carries the functions of all patches that have fragments to the plane of the direction.
+  /// Begins a direction.
   void begin() {
     for (OfPatch& patch : patches_) {
       patch.ready = false;
     }
     unit_ = projected_.grid.unit * projected_.grid.unit;
-    for (const ProjectedFragments::Fragment& fragment : projected_.fragments) {
-      if (!at(patches_, fragment.patch).ready) {
-        prepare(fragment.patch);
-      }
-    }
   }
 
-  /// Integrals of phi_1 and phi_2 over the projection of a fragment, m².
-  std::array<double, 2> of_fragment(const ProjectedFragments::Fragment& fragment) const {
+  /// Carries the functions of a patch to the plane of the direction, unless that is done.
+  void prepare(PatchId i) {
+    OfPatch& patch = at(patches_, i);
+    if (patch.ready) {
+      return;
+    }
+    const LinearBasis& basis = at(*bases_, i);
+    const PlaneFrame& frame = projected_.grid.frame;
+    patch.gradient = gradient_on_plane(basis, at(largest_, i), scene_.patch(i).normal, frame,
+                                       projected_.grid.unit);
+    patch.center = projected_.grid.point_at(basis.center);
+    patch.ready = true;
+  }
+
+  /// Integrals of phi_1 and phi_2 of a patch over the projection of its fragment, m².
+  std::array<double, 2> of_fragment(PatchId patch, const ProjectedFragments::Fragment& fragment) {
+    prepare(patch);
     const GridPoint* const corners = projected_.corners.data() + fragment.begin;
     const std::size_t count = fragment.end - fragment.begin;
     const GridPoint& apex = corners[0];
-    RegionMoments<double> sum(at_apex(fragment.patch, apex, 0.0, 0.0));
+    RegionMoments<double> sum(at_apex(patch, apex, 0.0, 0.0));
     for (std::size_t k = 1; k + 1 < count; ++k) {
       const GridPoint &p = corners[k], &q = corners[k + 1];
       sum.add(static_cast<double>(p.x - apex.x), static_cast<double>(p.y - apex.y),
@@ -55,7 +65,8 @@ class FragmentMoments {
     return sum.finish(unit_ * fragment.area, unit_);
   }
 
-  /// The moments of what the last subtract() of a view covered.
+  /// The moments of what one patch sees of another.
+  /// @param view that has its boundary
   /// @param area of it, m²
   template <class View>
   TransferMoments of_overlap(const View& view, PatchId own, PatchId other, double area) const {
@@ -85,16 +96,6 @@ class FragmentMoments {
     GridPoint center;        ///< center of the basis, projected
     bool ready = false;
   };
-
-  void prepare(PatchId i) {
-    OfPatch& patch = at(patches_, i);
-    const LinearBasis& basis = at(*bases_, i);
-    const PlaneFrame& frame = projected_.grid.frame;
-    patch.gradient = gradient_on_plane(basis, at(largest_, i), scene_.patch(i).normal, frame,
-                                       projected_.grid.unit);
-    patch.center = projected_.grid.point_at(basis.center);
-    patch.ready = true;
-  }
 
   /// The functions of a patch at the point (x, y) from `origin`.
   template <class Coordinate>

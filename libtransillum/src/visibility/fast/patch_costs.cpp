@@ -78,9 +78,11 @@ std::vector<FaceCost> costly_faces(const Scene& scene, const PatchCosts& costs, 
     face.cost += at(costs.patches, i);
   }
   const std::size_t count = std::min(most, faces.size());
-  std::partial_sort(
-      faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(count), faces.end(),
-      [](const FaceCost& a, const FaceCost& b) { return a.cost.seconds > b.cost.seconds; });
+  std::partial_sort(faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(count), faces.end(),
+                    [](const FaceCost& a, const FaceCost& b) {
+                      return a.cost.seconds != b.cost.seconds ? a.cost.seconds > b.cost.seconds
+                                                              : a.patch < b.patch;
+                    });
   faces.resize(count);
   return faces;
 }

@@ -115,7 +115,8 @@ void BoundaryView::find_window() {
 /// that ExactView is required.
 bool BoundaryView::is_inaccurate(double error, const ProjectedFragments::Fragment& fragment) const {
   const double limit = error / ProjectedFragments::accuracy;
-  return limit > fragment.area && limit > projected_.patch_area(fragment.patch);
+  return limit > fragment.area * projected_.smallest_part(fragment.patch) &&
+         limit > projected_.patch_area(fragment.patch);
 }
 
 /// Stores the fragment's edges, for is_outside_own_edge().

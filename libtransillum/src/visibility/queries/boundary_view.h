@@ -85,19 +85,18 @@ class BoundaryView {
   template <class Visit>
   void for_each_covered_segment(Visit visit) const {
     if (!in_frame_) {
-      for_each_segment(visit);
+      for_each_framed_segment(visit);
       return;
     }
-    for_each_segment([&](double px, double py, double qx, double qy) {
+    for_each_framed_segment([&](double px, double py, double qx, double qy) {
       const NeedleFrame::Point p = frame_.unmap(px, py), q = frame_.unmap(qx, qy);
       visit(p.x, p.y, q.x, q.y);
     });
   }
 
- private:
-  /// The same in the coordinates of the frame.
+  /// The same in the coordinates of frame().
   template <class Visit>
-  void for_each_segment(Visit visit) const {
+  void for_each_framed_segment(Visit visit) const {
     for (std::uint64_t bits = cut_.inside; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(bits));
       visit(cut_.in_x[k], cut_.in_y[k], cut_.out_x[k], cut_.out_y[k]);
@@ -107,7 +106,10 @@ class BoundaryView {
       visit(region_->bx[k], region_->by[k], region_->ax[k], region_->ay[k]);
     }
   }
+  /// The map from the plane to the coordinates of the segments.
+  NeedleFrame frame() const { return in_frame_ ? frame_ : NeedleFrame::at_origin(origin_); }
 
+ private:
   /// Bound on the rounding error of positions derived from a polygon's coordinates, relative to the
   /// largest coordinate.
   static constexpr double rounding = 0x1p-49;

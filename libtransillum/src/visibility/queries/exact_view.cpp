@@ -92,6 +92,7 @@ void ExactView::begin_query(std::int32_t fragment) {
 void ExactView::start_query(std::int32_t fragment, const GridPoint& origin) {
   const ProjectedFragments::Fragment& own = at(projected_.fragments, fragment);
   origin_ = origin;
+  fragment_ = fragment;
   edge_count_ = 0;
   free_.insert(free_.end(), remaining_.begin(), remaining_.end());
   remaining_.assign(1, new_polygon());

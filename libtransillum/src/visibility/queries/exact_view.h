@@ -38,6 +38,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/invariant.h"
@@ -45,6 +46,7 @@
 #include "transillum/transfers.h"
 #include "visibility/queries/exact_side.h"
 #include "visibility/queries/fragment_bins.h"
+#include "visibility/queries/needle_frame.h"
 #include "visibility/queries/projected_fragments.h"
 
 namespace transillum {
@@ -83,6 +85,22 @@ class ExactView {
         visit(part.x[k], part.y[k], part.x[next], part.y[next]);
       }
     }
+  }
+
+  /// The same in the coordinates of frame().
+  template <class Visit>
+  void for_each_framed_segment(Visit visit) const {
+    const NeedleFrame map = frame();
+    for_each_covered_segment([&](Real px, Real py, Real qx, Real qy) {
+      const NeedleFrame::Point p = map.map(px, py), q = map.map(qx, qy);
+      visit(p.x, p.y, q.x, q.y);
+    });
+  }
+  /// Coordinates in which the fragment is about as high as long.
+  NeedleFrame frame() const {
+    const ProjectedFragments::Fragment& own = at(projected_.fragments, fragment_);
+    const std::span<const GridPoint> corners(projected_.corners);
+    return NeedleFrame::around(corners.subspan(own.begin, own.end - own.begin), origin_);
   }
 
   // Never; for the same use as BoundaryView.
@@ -184,8 +202,9 @@ class ExactView {
   PassCounts& counts_;
 
   GridPoint origin_;
-  FragmentBins::Bin bin_{};  ///< bin of the query; only if the polygons have edges on its sides
-  std::vector<Edge> edges_;  ///< the first edge_count_ are in use
+  std::int32_t fragment_ = 0;  ///< the querying fragment
+  FragmentBins::Bin bin_{};    ///< bin of the query; only if the polygons have edges on its sides
+  std::vector<Edge> edges_;    ///< the first edge_count_ are in use
   std::size_t edge_count_ = 0;
   std::size_t kept_edges_ = 0;  ///< the first ones, to which polygons of the pool refer
   Real reach_ = 0;              ///< largest |x| + |y| of the querying fragment

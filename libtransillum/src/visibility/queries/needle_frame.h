@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "visibility/queries/cut_corners.h"
 #include "visibility/queries/exact_side.h"
@@ -22,8 +23,8 @@ struct NeedleFrame {
     x,
     y
   };
-  GridPoint origin;  ///< maps to (0, 0)
-  GridPoint along;   ///< vector that maps to (u, 0), u > 0
+  GridPoint origin{};  ///< maps to (0, 0)
+  GridPoint along{};   ///< vector that maps to (u, 0), u > 0
   Kept kept = Kept::both;
   double scale = 1;  ///< factor of the second coordinate, the determinant of `along` and a vector
   double determinant = 1;
@@ -51,6 +52,15 @@ struct NeedleFrame {
   long double height(const FinePoint& p) const {
     return cross({along}, {{p.grid.x - origin.x, p.grid.y - origin.y}, p.x, p.y});
   }
+  /// A translation.
+  static NeedleFrame at_origin(const GridPoint& origin) {
+    NeedleFrame frame;
+    frame.origin = origin;
+    return frame;
+  }
+  /// Coordinates in which a polygon is about as high as its longest edge is long.
+  static NeedleFrame around(std::span<const GridPoint> corners, const GridPoint& origin);
+
   Point map(const FinePoint& p) const {
     const auto x = static_cast<double>(p.grid.x - origin.x) + p.x;
     const auto y = static_cast<double>(p.grid.y - origin.y) + p.y;
@@ -58,6 +68,15 @@ struct NeedleFrame {
       return {x, y};
     }
     return {kept == Kept::y ? y : x, scale * static_cast<double>(height(p))};
+  }
+  /// @param x, y from the origin
+  Point map(long double x, long double y) const {
+    if (kept == Kept::both) {
+      return {static_cast<double>(x), static_cast<double>(y)};
+    }
+    const long double turn =
+        static_cast<long double>(along.x) * y - static_cast<long double>(along.y) * x;
+    return {static_cast<double>(kept == Kept::y ? y : x), scale * static_cast<double>(turn)};
   }
   /// The line through two points.
   Line map(const FinePoint& from, const FinePoint& to) const {

@@ -179,15 +179,20 @@ FragmentOutlines::FragmentOutlines(const Scene& scene, const BspTree& tree) : li
   }
   first.push_back(static_cast<std::uint32_t>(outlines.size()));
   join_triangles(scene, tree);
+  median_area = median_area_of(scene);
+}
+
+double FragmentOutlines::median_area_of(const Scene& scene) {
   std::vector<double> areas;
   for (const Patch& patch : scene.patches()) {
     areas.push_back(patch.area);
   }
-  if (!areas.empty()) {
-    const auto middle = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2);
-    std::nth_element(areas.begin(), middle, areas.end());
-    median_area = *middle;
+  if (areas.empty()) {
+    return 0;
   }
+  const auto middle = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2);
+  std::nth_element(areas.begin(), middle, areas.end());
+  return *middle;
 }
 
 void FragmentOutlines::join_triangles(const Scene& scene, const BspTree& tree) {
@@ -248,6 +253,7 @@ void ProjectedFragments::project(const Scene& scene, const BspTree& tree,
   scene_ = &scene;
   omega_ = omega;
   median_area_ = outlines.median_area;
+  smallest_part_ = &outlines.smallest_part;
   grid.project(scene, tree, omega, cancellation);
   boxes.clear();
   fragments.clear();

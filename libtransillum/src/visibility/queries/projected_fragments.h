@@ -50,11 +50,16 @@ struct FragmentOutlines {
     std::uint32_t outline;  ///< outline of the polygon
   };
   std::vector<Join> joins;
-  double median_area = 0;             ///< median area of the patches, square meters
+  double median_area = 0;  ///< median_area_of()
+  /// Per patch that stands for several: the area of the smallest, relative to it. If it is empty,
+  /// no patch does.
+  std::vector<double> smallest_part;
   std::vector<std::int32_t> join_of;  ///< per fragment: in `joins`, or -1; empty if there are none
 
   /// @param scene of the tree.
   FragmentOutlines(const Scene& scene, const BspTree& tree);
+  /// Median area of the patches, square meters; 0 without patches.
+  static double median_area_of(const Scene& scene);
 
  private:
   void add(PatchId patch, const std::vector<BspTree::Corner>& part);
@@ -150,8 +155,12 @@ struct ProjectedFragments {
   /// units: errors of a large patch count for the small ones that it sees.
   double patch_area(PatchId patch) const {
     const Patch& p = scene_->patch(patch);
-    return std::min(std::abs(dot(p.normal, omega_)) * p.area, median_area_) /
+    return std::min(std::abs(dot(p.normal, omega_)) * p.area * smallest_part(patch), median_area_) /
            (grid.unit * grid.unit);
+  }
+  /// FragmentOutlines::smallest_part of a patch.
+  double smallest_part(PatchId patch) const {
+    return smallest_part_->empty() ? 1 : at(*smallest_part_, patch);
   }
 
   /// Corner k of a fragment as a corner of its outline. The outline of a back-facing fragment is
@@ -184,6 +193,7 @@ struct ProjectedFragments {
   std::vector<FragmentOutlines::Corner> changed_corners_;
   Vec3 omega_;
   double median_area_ = 0;  ///< median area of the patches, square meters
+  const std::vector<double>* smallest_part_ = nullptr;
 
   void prefetch(const FragmentOutlines& outlines, const std::vector<FragmentId>& order,
                 std::size_t index) const;

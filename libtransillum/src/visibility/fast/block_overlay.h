@@ -1,0 +1,117 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// What the patches of one block see of those of another, from what the block sees of the other. The
+// area that both share on the plane is divided by the lines of both grids, one after another: its
+// boundary is cut into two closed parts, which have the points on the line in common to the last
+// bit. So no area is lost, however rounding has moved the points.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "visibility/fast/patch_blocks.h"
+#include "visibility/queries/needle_frame.h"
+#include "visibility/queries/projected_fragments.h"
+
+namespace transillum {
+
+/// A directed segment of a boundary; the area is on its left.
+struct BoundarySegment {
+  double ax, ay, bx, by;
+};
+
+/// The boundary of a cell, as FragmentMoments reads it.
+struct CellBoundary {
+  using Coordinate = double;
+  NeedleFrame frame;  ///< in whose coordinates the segments are
+  std::span<const BoundarySegment> segments;
+
+  const GridPoint& origin() const { return frame.origin; }
+  template <class Visit>
+  void for_each_covered_segment(Visit visit) const {
+    for (const BoundarySegment& s : segments) {
+      const NeedleFrame::Point p = frame.unmap(s.ax, s.ay), q = frame.unmap(s.bx, s.by);
+      visit(p.x, p.y, q.x, q.y);
+    }
+  }
+};
+
+/// Divides what blocks see of each other by the lines of their grids.
+class BlockOverlay {
+ public:
+  /// The area in which patch `own` sees patch `other`.
+  struct Cell {
+    PatchId own, other;
+    double area;               ///< in the coordinates' unit
+    std::uint32_t begin, end;  ///< the segments of its boundary
+  };
+
+  BlockOverlay(const PatchBlocks& blocks, const ProjectedFragments& projected)
+      : blocks_(blocks), projected_(projected) {}
+
+  /// To be called when a view begins a query: its frame changes.
+  void begin_query() { own_ = nullptr; }
+  /// Divides what the fragment of the query sees of another.
+  /// @param view in its frame: the boundary of what its last subtract() has covered
+  /// @param keep_segments whether boundary() will be called
+  template <class View>
+  std::span<const Cell> divide(const View& view, const NeedleFrame& frame,
+                               const ProjectedFragments::Fragment& own,
+                               const ProjectedFragments::Fragment& other, bool keep_segments) {
+    begin(frame, own, other, keep_segments);
+    view.for_each_framed_segment([&](double ax, double ay, double bx, double by) {
+      pool_.push_back({ax, ay, bx, by});
+    });
+    finish();
+    return cells_;
+  }
+  /// Divides the outline of a fragment by the lines of its own block.
+  std::span<const Cell> divide_outline(const ProjectedFragments::Fragment& fragment);
+  /// The boundary of a cell; empty unless segments were kept.
+  std::span<const BoundarySegment> boundary(const Cell& cell) const {
+    return {kept_.data() + cell.begin, cell.end - cell.begin};
+  }
+
+ private:
+  /// The columns or rows of one of the two blocks.
+  struct Axis {
+    std::int32_t count;
+    std::size_t lines;    ///< first in lines_
+    std::int32_t chosen;  ///< column or row of the part that is being divided
+  };
+
+  void begin(const NeedleFrame& frame, const ProjectedFragments::Fragment& own,
+             const ProjectedFragments::Fragment& other, bool keep_segments);
+  void add_axes(const NeedleFrame& frame, const ProjectedFragments::Fragment& fragment,
+                std::size_t first_axis);
+  template <class Between, class Through>
+  void add_lines(const PatchBlock& block, bool front, Between between, Through through);
+  void finish();
+  void divide_axis(std::size_t axis, std::int32_t low, std::int32_t high, std::size_t begin);
+  int cut(const NeedleFrame::Line& line, std::size_t begin, std::size_t& middle);
+  void close(const NeedleFrame::Line& line);
+  void add_cell(std::size_t begin);
+
+  const PatchBlocks& blocks_;
+  const ProjectedFragments& projected_;
+  const PatchBlock* own_ = nullptr;
+  const PatchBlock* other_ = nullptr;
+  bool keep_segments_ = false;
+  std::array<Axis, 4> axes_{};            ///< columns and rows of the one, then of the other
+  std::vector<NeedleFrame::Line> lines_;  ///< the query's block has the first ones
+  std::size_t own_lines_ = 0;
+  double own_far_ = 0;  ///< largest coordinate of the fragment of the query in its frame
+  std::vector<BoundarySegment> pool_;  ///< parts that wait, and at its end the one being divided
+  struct Crossing {
+    double along, x, y;
+    int change;  ///< the winding number changes by this, in the order of `along`
+  };
+  std::vector<Crossing> crossings_;
+  std::vector<BoundarySegment> right_;
+  std::vector<Cell> cells_;
+  std::vector<BoundarySegment> kept_;
+};
+
+}  // namespace transillum

@@ -1,0 +1,239 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// What one query of engine fast has found: the areas in which its fragment sees others, and the
+// parts of these areas by patch, where fragments stand for blocks of patches.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "transillum/at.h"
+#include "transillum/linear_basis.h"
+#include "transillum/transfers.h"
+#include "visibility/fast/block_overlay.h"
+#include "visibility/fast/fragment_moments.h"
+#include "visibility/fast/patch_blocks.h"
+#include "visibility/queries/projected_fragments.h"
+#include "visibility/queries/query_cost.h"
+
+namespace transillum {
+
+/// The moments with receiver and source exchanged.
+inline TransferMoments transposed(const TransferMoments& moments) {
+  TransferMoments turned;
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t b = 0; b < 3; ++b) {
+      turned.of(a, b) = moments.of(b, a);
+    }
+  }
+  return turned;
+}
+
+/// Collects what a query finds.
+class VisibleAreas {
+ public:
+  struct Area {
+    std::int32_t fragment;
+    double area;          ///< square grid units
+    bool too_small;       ///< the fragment is too small for this area to be accurate
+    std::size_t end = 0;  ///< its parts end here, and begin where the area before it ends
+  };
+  /// The area in which one patch sees another.
+  struct PatchArea {
+    PatchId own, other;
+    double area;  ///< square grid units
+  };
+
+  /// @param blocks of the patches of the fragments; null where these are the patches themselves
+  /// @param bases if set, parts have moments
+  VisibleAreas(const Scene& scene, const PatchBlocks* blocks,
+               const std::shared_ptr<const std::vector<LinearBasis>>& bases,
+               const ProjectedFragments& projected)
+      : projected_(projected), blocks_(blocks) {
+    if (bases) {
+      moments_.emplace(scene, bases, projected);
+    }
+    if (blocks != nullptr) {
+      overlay_.emplace(*blocks, projected);
+    }
+  }
+
+  /// Begins a direction. Calls visit(fragment, patch, area, moments) for each patch of each
+  /// fragment: its projected area, square grid units, and its integrals of phi_1 and phi_2 over it,
+  /// m², if there are moments.
+  template <class Visit>
+  void begin(Visit visit) {
+    if (moments_) {
+      moments_->begin();
+    }
+    for (const ProjectedFragments::Fragment& fragment : projected_.fragments) {
+      if (!is_block(fragment)) {
+        const PatchId patch = patch_of(fragment);
+        visit(fragment, patch, fragment.area,
+              moments_ ? moments_->of_fragment(patch, fragment) : std::array<double, 2>{});
+        continue;
+      }
+      // The integrals over whole patches are 0.
+      for_each_share(fragment, [&](PatchId patch, double area) {
+        if (moments_) {
+          moments_->prepare(patch);
+        }
+        visit(fragment, patch, area, std::array<double, 2>{});
+      });
+    }
+  }
+
+  bool is_block(const ProjectedFragments::Fragment& fragment) const {
+    return blocks_ != nullptr && !at(blocks_->blocks, fragment.patch).is_single();
+  }
+  /// Calls visit(patch, cost) for each patch of the fragment of a query: equal shares of time and
+  /// candidates, as far as these are whole numbers; the first one has the rest.
+  template <class Visit>
+  void share_cost(const ProjectedFragments::Fragment& fragment, const PatchCost& cost,
+                  Visit visit) const {
+    if (!is_block(fragment)) {
+      visit(patch_of(fragment), cost);
+      return;
+    }
+    const PatchBlock& block = at(blocks_->blocks, fragment.patch);
+    const std::int32_t count = block.columns * block.rows;
+    PatchCost share;
+    share.seconds = cost.seconds / count;
+    share.candidates = cost.candidates / count;
+    PatchCost rest = cost;
+    rest.seconds = 0;
+    rest.candidates -= count * share.candidates;
+    visit(block.first, rest);
+    for (std::int32_t k = 0; k < count; ++k) {
+      visit(block.patch(k % block.columns, k / block.columns), share);
+    }
+  }
+
+  bool have_moments() const { return moments_.has_value(); }
+
+  /// To be called when a view begins a query.
+  void clear() {
+    areas_.clear();
+    parts_.clear();
+    part_moments_.clear();
+    if (overlay_) {
+      overlay_->begin_query();
+    }
+  }
+  /// Adds what the last subtract() of a view has found.
+  template <class View>
+  void add(const View& view, std::int32_t fragment, Area area) {
+    const ProjectedFragments::Fragment& own = at(projected_.fragments, fragment);
+    const ProjectedFragments::Fragment& other = at(projected_.fragments, area.fragment);
+    if (area.area > 0 && (is_block(own) || is_block(other))) {
+      add_cells(view, own, other, area.area);
+    } else if (area.area > 0) {
+      add_part(view, {patch_of(own), patch_of(other), area.area});
+    }
+    area.end = parts_.size();
+    areas_.push_back(area);
+  }
+
+  const std::vector<Area>& areas() const { return areas_; }
+  /// Calls visit(part, moments) for each part of area k; moments is null if there are none.
+  template <class Visit>
+  void for_each_part(std::size_t k, Visit visit) const {
+    for (std::size_t p = k == 0 ? 0 : areas_[k - 1].end; p < areas_[k].end; ++p) {
+      visit(parts_[p], moments_ ? &part_moments_[p] : nullptr);
+    }
+  }
+
+ private:
+  /// Parts below this, relative to the area of a patch, are the rounding of lines.
+  static constexpr double negligible = 0x1p-46;
+  /// A fragment is narrow if its perimeter over its area, 1 over grid units, is at least this.
+  static constexpr double narrow = 0x1p-45;
+
+  /// The patch of a fragment that is no block.
+  PatchId patch_of(const ProjectedFragments::Fragment& fragment) const {
+    return blocks_ != nullptr ? at(blocks_->blocks, fragment.patch).first : fragment.patch;
+  }
+
+  /// Calls visit(patch, area) for each patch of a block, with its part of a fragment's area.
+  template <class Visit>
+  void for_each_share(const ProjectedFragments::Fragment& fragment, Visit visit) {
+    const std::size_t count = fragment.end - fragment.begin;
+    const auto corners =
+        std::span<const GridPoint>(projected_.corners).subspan(fragment.begin, count);
+    double perimeter = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const GridPoint &a = corners[k], &b = corners[(k + 1) % count];
+      perimeter += static_cast<double>(std::abs(b.x - a.x) + std::abs(b.y - a.y));
+    }
+    if (perimeter < narrow * fragment.area) {
+      const PatchBlock& block = at(blocks_->blocks, fragment.patch);
+      const double* share = blocks_->shares.data() + block.shares;
+      for (std::int32_t k = 0; k < block.columns * block.rows; ++k) {
+        visit(block.patch(k % block.columns, k / block.columns), share[k] * fragment.area);
+      }
+      return;
+    }
+    // Rounding to the grid has changed the shares.
+    const auto cells = overlay_->divide_outline(fragment);
+    double sum = 0;
+    for (const BlockOverlay::Cell& cell : cells) {
+      sum += std::max(0.0, cell.area);
+    }
+    for (const BlockOverlay::Cell& cell : cells) {
+      visit(cell.own, sum > 0 ? fragment.area * std::max(0.0, cell.area) / sum : 0);
+    }
+  }
+
+  template <class Boundary>
+  void add_part(const Boundary& boundary, const PatchArea& part) {
+    parts_.push_back(part);
+    if (moments_) {
+      const double unit = projected_.grid.unit;
+      part_moments_.push_back(
+          moments_->of_overlap(boundary, part.own, part.other, unit * unit * part.area));
+    }
+  }
+
+  template <class View>
+  void add_cells(const View& view, const ProjectedFragments::Fragment& own,
+                 const ProjectedFragments::Fragment& other, double area) {
+    const NeedleFrame frame = view.frame();
+    const auto cells = overlay_->divide(view, frame, own, other, moments_.has_value());
+    const auto smallest = [&](const ProjectedFragments::Fragment& fragment) {
+      return projected_.smallest_part(fragment.patch) * fragment.area;
+    };
+    const double least = negligible * frame.determinant * std::min(smallest(own), smallest(other));
+    double sum = 0, largest = 0;
+    for (const BlockOverlay::Cell& cell : cells) {
+      sum += cell.area > least ? cell.area : 0;
+      largest = std::max(largest, cell.area);
+    }
+    // All of the area goes to patches, however rounding has divided a needle.
+    const bool one = sum == 0;
+    for (const BlockOverlay::Cell& cell : cells) {
+      if (one ? cell.area == largest : cell.area > least) {
+        add_part(CellBoundary{frame, overlay_->boundary(cell)},
+                 {cell.own, cell.other, one ? area : area * (cell.area / sum)});
+        if (one) {
+          return;
+        }
+      }
+    }
+  }
+
+  const ProjectedFragments& projected_;
+  const PatchBlocks* blocks_;
+  std::optional<FragmentMoments> moments_;
+  std::optional<BlockOverlay> overlay_;
+  std::vector<Area> areas_;
+  std::vector<PatchArea> parts_;
+  std::vector<TransferMoments> part_moments_;  ///< for each part, if there are moments
+};
+
+}  // namespace transillum

@@ -1,0 +1,255 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// Patches that engine fast queries together, against the local map, which knows no blocks.
+#include "visibility/fast/patch_blocks.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "support/scenes.h"
+#include "support/transfer_difference.h"
+#include "transillum/at.h"
+#include "transillum/engine.h"
+#include "visibility/fast/patch_costs.h"
+
+namespace transillum::patch_blocks_test {
+namespace {
+
+using testing::Sketch;
+
+constexpr double agreed = 1e-10;
+
+/// A room with a block and a slanted board, so that walls are cut and hidden in part.
+Sketch room() {
+  Sketch sketch;
+  const int gray = sketch.material(0.5, 1);
+  sketch.box({0, 0, 0}, {5, 4, 3}, true, gray).box({1, 1, 0}, {2, 2.5, 1.2}, false, gray);
+  sketch.face({{3, 0.5, 0.5}, {4.5, 1, 0.7}, {4.5, 3, 2.2}, {3, 2.5, 2}}, gray);
+  return sketch;
+}
+
+/// A wall whose grid is no parallelogram, below one that is turned against it.
+Sketch trapezoids() {
+  Sketch sketch;
+  const int gray = sketch.material(0.5, 1);
+  sketch.face({{0, 0, 0}, {4, 0, 0}, {2.5, 3, 0}, {1, 2, 0}}, gray);
+  sketch.face({{0.2, 0.1, 2}, {0.7, 2.4, 2.2}, {2.9, 2.1, 2.1}, {3.1, 0.3, 1.9}}, gray);
+  sketch.face({{1, 0.5, 1}, {2, 0.6, 1}, {1.5, 1.5, 1.2}}, gray);
+  return sketch;
+}
+
+int patches_in_blocks(const PatchBlocks& blocks) {
+  int sum = 0;
+  for (const PatchBlock& block : blocks.blocks) {
+    sum += block.is_single() ? 0 : block.columns * block.rows;
+  }
+  return sum;
+}
+
+void expect_each_patch_once(const Scene& scene, const PatchBlocks& blocks) {
+  std::vector<int> times(scene.patches().size(), 0);
+  for (std::size_t k = 0; k < blocks.blocks.size(); ++k) {
+    const PatchBlock& block = blocks.blocks[k];
+    double area = 0;
+    for (std::int32_t row = 0; row < block.rows; ++row) {
+      for (std::int32_t column = 0; column < block.columns; ++column) {
+        const PatchId i = block.patch(column, row);
+        ++at(times, i);
+        area += scene.patch(i).area;
+        EXPECT_GT(dot(scene.patch(i).normal, blocks.scene->patches()[k].normal), 1 - 1e-12);
+      }
+    }
+    EXPECT_NEAR(area, blocks.scene->patches()[k].area, 1e-13 * area);
+  }
+  EXPECT_EQ(std::count(times.begin(), times.end(), 1), scene.patch_count());
+}
+
+TEST(PatchBlocks, HoldEachPatchOfADividedRoomOnce) {
+  for (const bool two_sided : {false, true}) {
+    const auto scene = room().scene({.two_sided = two_sided, .max_patch_area = 0.05});
+    const auto blocks = PatchBlocks::of(*scene);
+    ASSERT_TRUE(blocks);
+    // The back of the block's base lies in the plane of the floor, and looks as it does.
+    EXPECT_GT(patches_in_blocks(*blocks), (two_sided ? 0.8 : 1 - 1e-9) * scene->patch_count());
+    EXPECT_LT(5 * blocks->blocks.size(), scene->patches().size());
+    expect_each_patch_once(*scene, *blocks);
+  }
+}
+
+TEST(PatchBlocks, AreNotMadeOfTrianglesAndWholeFaces) {
+  Sketch sketch;
+  const int gray = sketch.material(0.5, 1);
+  sketch.triangles(20, 1, 4, gray);
+  EXPECT_FALSE(PatchBlocks::of(*sketch.scene({.max_patch_area = 0.01})));
+  EXPECT_FALSE(PatchBlocks::of(*room().scene()));
+}
+
+/// Patches that follow each other around a hole, edge by edge, end where they began.
+TEST(PatchBlocks, AreNotMadeOfAFrame) {
+  Sketch sketch;
+  const int gray = sketch.material(0.5, 1);
+  const std::vector<Vec3> outside{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
+  const std::vector<Vec3> inside{{1, 1, 0}, {3, 1, 0}, {3, 3, 0}, {1, 3, 0}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t next = (k + 1) % 4;
+    sketch.face({outside[k], outside[next], inside[next], inside[k]}, gray);
+  }
+  EXPECT_FALSE(PatchBlocks::of(*sketch.scene()));
+  const auto divided = sketch.scene({.max_patch_area = 0.1});
+  const auto blocks = PatchBlocks::of(*divided);
+  ASSERT_TRUE(blocks);
+  expect_each_patch_once(*divided, *blocks);
+  EXPECT_EQ(patches_in_blocks(*blocks), divided->patch_count());
+}
+
+/// A divided rug on a divided floor: where both overlap, patches decide which one is seen.
+TEST(PatchBlocks, AreDissolvedWhereFacesOfOnePlaneOverlap) {
+  Sketch sketch = room();
+  const int rug = sketch.material(0.2, 0);
+  sketch.face({{2.5, 0.5, 0}, {4.1, 0.5, 0}, {4.1, 1.5, 0}, {2.5, 1.5, 0}}, rug);
+  const auto scene = sketch.scene({.max_patch_area = 0.05});
+  const auto blocks = PatchBlocks::of(*scene);
+  ASSERT_TRUE(blocks);
+  expect_each_patch_once(*scene, *blocks);
+  for (const PatchBlock& block : blocks->blocks) {
+    EXPECT_TRUE(block.is_single() || scene->material(block.first).reflectance.r == 0.5);
+  }
+  EXPECT_LT(patches_in_blocks(*blocks), scene->patch_count());
+}
+
+/// Directions in general, along axes and diagonals, and nearly along the walls.
+std::vector<Vec3> directions() {
+  std::vector<Vec3> all = testing::test_directions(14, 77);
+  for (const double tilt : {1e-2, 1e-4, 1e-6, 1e-8}) {
+    all.push_back(normalized(Vec3{0.7, 0.6, tilt}));
+    all.push_back(normalized(Vec3{tilt, -0.3, -0.8}));
+  }
+  return all;
+}
+
+struct Case {
+  const char* name;
+  Sketch (*sketch)();
+  SceneOptions options;
+};
+
+std::vector<Case> cases() {
+  return {{"room", room, {.max_patch_area = 0.04}},
+          {"two-sided room", room, {.two_sided = true, .max_patch_area = 0.1}},
+          {"trapezoids", trapezoids, {.max_patch_area = 0.02}}};
+}
+
+TEST(PatchBlocks, AgreeWithTheLocalMap) {
+  for (const Case& of : cases()) {
+    for (const std::uint64_t turn : {0u, 1u, 2u}) {
+      SceneDescription description = of.sketch().description();
+      if (turn > 0) {
+        const auto rotate = testing::random_rotation(turn);
+        description = testing::moved(description, [&](const Vec3& p) {
+          return rotate(p) + Vec3{10.0, 20.0, -5.0};
+        });
+      }
+      const auto scene = std::make_shared<const Scene>(description, of.options);
+      ASSERT_TRUE(PatchBlocks::of(*scene)) << of.name;
+      const auto tree = std::make_shared<const BspTree>(*scene);
+      const TransferEngine fast = make_engine(Engine::fast, scene, tree);
+      const TransferEngine local = make_engine(Engine::local, scene, tree);
+      for (const Vec3& omega : directions()) {
+        const auto found = testing::difference(*scene, local(omega, {}), fast(omega, {}));
+        EXPECT_LE(found.fraction, agreed)
+            << of.name << ", turn " << turn << ", direction " << omega.x << ", " << omega.y << ", "
+            << omega.z << ", " << found.where;
+      }
+    }
+  }
+}
+
+using PairMoments = std::map<std::pair<PatchId, PatchId>, TransferMoments>;
+
+PairMoments moments_of(const Transfers& transfers) {
+  PairMoments moments;
+  for (std::size_t k = 0; k < transfers.exchanges.size(); ++k) {
+    moments[{transfers.exchanges[k].receiver, transfers.exchanges[k].source}] =
+        transfers.moments[k];
+  }
+  return moments;
+}
+
+/// The largest moment of `a` less that of `b`, over the area of the smaller patch.
+double difference(const Scene& scene, const PairMoments& a, const PairMoments& b) {
+  double largest = 0;
+  for (const auto& [pair, moments] : a) {
+    const auto found = b.find(pair);
+    const TransferMoments other = found != b.end() ? found->second : TransferMoments{};
+    const double area = std::min(scene.patch(pair.first).area, scene.patch(pair.second).area);
+    for (std::size_t k = 0; k < moments.value.size(); ++k) {
+      largest = std::max(largest, std::abs(moments.value[k] - other.value[k]) / area);
+    }
+  }
+  return largest;
+}
+
+TEST(PatchBlocks, HaveTheMomentsOfTheLocalMap) {
+  for (const Case& of : cases()) {
+    const auto scene = of.sketch().scene(of.options);
+    const auto tree = std::make_shared<const BspTree>(*scene);
+    const TransferEngine fast = make_engine(Engine::fast, scene, tree, {.moments = true});
+    const TransferEngine local = make_engine(Engine::local, scene, tree, {.moments = true});
+    for (const Vec3& omega : directions()) {
+      const PairMoments by_fast = moments_of(fast(omega, {}));
+      const PairMoments by_local = moments_of(local(omega, {}));
+      EXPECT_LE(difference(*scene, by_fast, by_local), agreed) << of.name;
+      EXPECT_LE(difference(*scene, by_local, by_fast), agreed) << of.name;
+    }
+  }
+}
+
+/// In an empty room, what each patch sees is all of its projection, and so for its moments.
+TEST(PatchBlocks, CloseARoom) {
+  Sketch empty;
+  empty.box({0, 0, 0}, {5, 4, 3}, true, empty.material(0.5, 1));
+  const auto box = empty.scene({.max_patch_area = 0.01});
+  const TransferEngine of_box =
+      make_engine(Engine::fast, box, std::make_shared<const BspTree>(*box), {.moments = true});
+  for (const Vec3& omega : directions()) {
+    const Transfers transfers = of_box(omega, {});
+    for (PatchId i = 0; i < box->patch_count(); ++i) {
+      const Coverage& side = at(transfers.forward, i);
+      EXPECT_NEAR(side.projected,
+                  box->patch(i).area * std::max(0.0, dot(box->patch(i).normal, omega)),
+                  1e-13 * box->patch(i).area);
+      if (side.projected > 1e-12 * box->patch(i).area) {  // else edge-on
+        EXPECT_NEAR(side.covered, side.projected, 1e-11 * side.projected);
+      }
+      for (std::size_t a = 0; a < 2; ++a) {
+        EXPECT_NEAR(at(transfers.forward_moments, i).covered[a], 0, 1e-11 * box->patch(i).area);
+      }
+    }
+  }
+}
+
+TEST(PatchBlocks, ShareTheCostOfTheirQueries) {
+  const auto scene = room().scene({.max_patch_area = 0.05});
+  const auto tree = std::make_shared<const BspTree>(*scene);
+  const std::vector<Vec3> along{normalized(Vec3{0.3, 0.5, 0.7}), normalized(Vec3{-0.9, 0.2, 0.1})};
+  const PatchCosts costs = patch_costs(Engine::fast, scene, tree, along, false);
+  const TransferEngine fast = make_engine(Engine::fast, scene, tree);
+  PassCounts counts;
+  for (const Vec3& omega : along) {
+    counts += fast(omega, {}).counts;
+  }
+  EXPECT_EQ(costs.total().candidates, counts.pairs);
+  // Fewer queries than patches, and each patch of a wall has its share of the time.
+  EXPECT_LT(4 * costs.total().queries, scene->patch_count());
+  const auto timed = std::count_if(costs.patches.begin(), costs.patches.end(),
+                                   [](const PatchCost& cost) { return cost.seconds > 0; });
+  EXPECT_GT(2 * timed, scene->patch_count());
+}
+
+}  // namespace
+}  // namespace transillum::patch_blocks_test
