@@ -43,10 +43,37 @@ Sketch trapezoids() {
   return sketch;
 }
 
+/// A roof of triangles above a floor of two, and a board between.
+Sketch triangles() {
+  Sketch sketch;
+  const int gray = sketch.material(0.5, 1);
+  sketch.face({{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}, gray);
+  sketch.face({{4, 0, 0}, {4, 3, 0}, {0, 3, 0}}, gray);
+  sketch.face({{0.1, 0.2, 2}, {1.2, 2.9, 2.4}, {3.8, 0.3, 2.1}}, gray);
+  sketch.face({{1, 0.5, 1}, {2, 0.6, 1}, {1.5, 1.5, 1.2}}, gray);
+  return sketch;
+}
+
+/// Solids that cross, and boards that cut needles off the faces of a box.
+Sketch crossing() {
+  Sketch sketch;
+  const int gray = sketch.material(0.5, 1);
+  sketch.tetrahedra(6, 0.9, 3, gray).box({-1, -1, -1}, {2, 2, 2}, true, gray);
+  for (const double inset : {1e-7, 1e-9, 1e-11}) {
+    const double x = 2 - inset;
+    sketch.face({{x, -1 - inset, -0.5}, {x, 1, -0.4}, {x, 1, 0.4}, {x, -1 - inset, 0.5}}, gray);
+    sketch.face({{-0.5, -0.5, x}, {-1 + inset, 0.5, x}, {0.5, 1 - inset, x + 0.1 * inset}}, gray);
+  }
+  return sketch;
+}
+
 int patches_in_blocks(const PatchBlocks& blocks) {
   int sum = 0;
   for (const PatchBlock& block : blocks.blocks) {
-    sum += block.is_single() ? 0 : block.columns * block.rows;
+    for (std::int32_t k = 0; k < block.size(); ++k) {
+      const PatchId i = blocks.patches[block.patches + static_cast<std::size_t>(k)];
+      sum += block.is_single() || i == no_patch ? 0 : 1;
+    }
   }
   return sum;
 }
@@ -56,9 +83,9 @@ void expect_each_patch_once(const Scene& scene, const PatchBlocks& blocks) {
   for (std::size_t k = 0; k < blocks.blocks.size(); ++k) {
     const PatchBlock& block = blocks.blocks[k];
     double area = 0;
-    for (std::int32_t row = 0; row < block.rows; ++row) {
-      for (std::int32_t column = 0; column < block.columns; ++column) {
-        const PatchId i = block.patch(column, row);
+    for (std::int32_t p = 0; p < block.size(); ++p) {
+      const PatchId i = blocks.patches[block.patches + static_cast<std::size_t>(p)];
+      if (i != no_patch) {
         ++at(times, i);
         area += scene.patch(i).area;
         EXPECT_GT(dot(scene.patch(i).normal, blocks.scene->patches()[k].normal), 1 - 1e-12);
@@ -81,11 +108,26 @@ TEST(PatchBlocks, HoldEachPatchOfADividedRoomOnce) {
   }
 }
 
-TEST(PatchBlocks, AreNotMadeOfTrianglesAndWholeFaces) {
+TEST(PatchBlocks, HoldEachPatchOfDividedTrianglesOnce) {
+  for (const double area : {1.0, 0.3, 0.05, 0.01}) {
+    for (const bool two_sided : {false, true}) {
+      const auto scene = triangles().scene({.two_sided = two_sided, .max_patch_area = area});
+      const auto blocks = PatchBlocks::of(*scene);
+      if (area < 0.3) {
+        ASSERT_TRUE(blocks);
+        EXPECT_GT(patches_in_blocks(*blocks), 0.95 * scene->patch_count());
+      }
+      if (blocks) {
+        expect_each_patch_once(*scene, *blocks);
+      }
+    }
+  }
+}
+
+TEST(PatchBlocks, AreNotMadeOfWholeFaces) {
   Sketch sketch;
-  const int gray = sketch.material(0.5, 1);
-  sketch.triangles(20, 1, 4, gray);
-  EXPECT_FALSE(PatchBlocks::of(*sketch.scene({.max_patch_area = 0.01})));
+  sketch.triangles(20, 1, 4, sketch.material(0.5, 1));
+  EXPECT_FALSE(PatchBlocks::of(*sketch.scene()));
   EXPECT_FALSE(PatchBlocks::of(*room().scene()));
 }
 
@@ -117,7 +159,8 @@ TEST(PatchBlocks, AreDissolvedWhereFacesOfOnePlaneOverlap) {
   ASSERT_TRUE(blocks);
   expect_each_patch_once(*scene, *blocks);
   for (const PatchBlock& block : blocks->blocks) {
-    EXPECT_TRUE(block.is_single() || scene->material(block.first).reflectance.r == 0.5);
+    const PatchId first = blocks->patches[block.patches];
+    EXPECT_TRUE(block.is_single() || scene->material(first).reflectance.r == 0.5);
   }
   EXPECT_LT(patches_in_blocks(*blocks), scene->patch_count());
 }
@@ -141,7 +184,10 @@ struct Case {
 std::vector<Case> cases() {
   return {{"room", room, {.max_patch_area = 0.04}},
           {"two-sided room", room, {.two_sided = true, .max_patch_area = 0.1}},
-          {"trapezoids", trapezoids, {.max_patch_area = 0.02}}};
+          {"trapezoids", trapezoids, {.max_patch_area = 0.02}},
+          {"crossing", crossing, {.max_patch_area = 0.05}},
+          {"triangles", triangles, {.max_patch_area = 0.03}},
+          {"two-sided triangles", triangles, {.two_sided = true, .max_patch_area = 0.1}}};
 }
 
 TEST(PatchBlocks, AgreeWithTheLocalMap) {

@@ -13,6 +13,8 @@ namespace {
 /// A block farther than this from the origin of a frame, relative to the one that is divided, gets
 /// lines from wide numbers: they pass near the other one.
 constexpr double most_far = 16;
+/// A block is narrow if its perimeter over its area, 1 over grid units, is at least this.
+constexpr double narrow = 0x1p-45;
 
 }  // namespace
 
@@ -36,7 +38,22 @@ void BlockOverlay::begin(const NeedleFrame& frame, const ProjectedFragments::Fra
   }
   other_ = &at(blocks_.blocks, other.patch);
   lines_.resize(own_lines_);
-  add_axes(frame, other, 2);
+  add_axes(frame, other, 3);
+}
+
+bool BlockOverlay::is_narrow(PatchId block) const {
+  const auto outline = blocks_.scene->outline(block);
+  const GridPoint& apex = at(projected_.grid.points, outline[0]);
+  double perimeter = 0;
+  long double twice_area = 0;
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const GridPoint& p = at(projected_.grid.points, outline[k]);
+    const GridPoint& q = at(projected_.grid.points, outline[k + 1 < outline.size() ? k + 1 : 0]);
+    perimeter += static_cast<double>(std::abs(q.x - p.x) + std::abs(q.y - p.y));
+    twice_area += static_cast<long double>(p.x - apex.x) * static_cast<long double>(q.y - apex.y) -
+                  static_cast<long double>(p.y - apex.y) * static_cast<long double>(q.x - apex.x);
+  }
+  return perimeter >= narrow * std::abs(static_cast<double>(twice_area / 2));
 }
 
 std::span<const BlockOverlay::Cell> BlockOverlay::divide_outline(
@@ -47,7 +64,7 @@ std::span<const BlockOverlay::Cell> BlockOverlay::divide_outline(
   const NeedleFrame frame = NeedleFrame::around(corners, corners[0]);
   begin_query();
   begin(frame, fragment, fragment, false);
-  axes_[2].count = axes_[3].count = 1;
+  axes_[3] = axes_[4] = axes_[5] = {};
   for (std::size_t k = 0; k < count; ++k) {
     const NeedleFrame::Point p = frame.map({corners[k]}), q = frame.map({corners[(k + 1) % count]});
     pool_.push_back({p.x, p.y, q.x, q.y});
@@ -61,16 +78,19 @@ std::span<const BlockOverlay::Cell> BlockOverlay::divide_outline(
 void BlockOverlay::add_axes(const NeedleFrame& frame, const ProjectedFragments::Fragment& fragment,
                             std::size_t first_axis) {
   const PatchBlock& block = at(blocks_.blocks, fragment.patch);
-  axes_[first_axis] = {block.columns, lines_.size(), 0};
-  axes_[first_axis + 1] = {block.rows, lines_.size() + static_cast<std::size_t>(block.columns) - 1,
-                           0};
+  std::size_t first = lines_.size();
+  for (const std::int32_t count : {block.columns, block.rows, block.strips}) {
+    axes_[first_axis++] = {count, first, 0};
+    first += static_cast<std::size_t>(count - 1);
+  }
   if (block.is_single()) {
     return;
   }
-  std::array<GridPoint, 4> corners;
+  const auto outline = blocks_.scene->outline(fragment.patch);
+  std::array<GridPoint, 5> corners;
   double far = 0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    corners[k] = at(projected_.grid.points, blocks_.scene->outline(fragment.patch)[k]);
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    corners[k] = at(projected_.grid.points, outline[k]);
     corners[k].x -= frame.origin.x;
     corners[k].y -= frame.origin.y;
     far = std::max({far, std::abs(static_cast<double>(corners[k].x)),
@@ -78,7 +98,7 @@ void BlockOverlay::add_axes(const NeedleFrame& frame, const ProjectedFragments::
   }
   if (frame.kept == NeedleFrame::Kept::both && far <= most_far * own_far_) {
     add_lines(
-        block, fragment.front,
+        block, outline.size(), fragment.front,
         [&](std::size_t p, std::size_t q, double t) {
           const auto x = static_cast<double>(corners[p].x), y = static_cast<double>(corners[p].y);
           return NeedleFrame::Point{x + t * static_cast<double>(corners[q].x - corners[p].x),
@@ -91,7 +111,7 @@ void BlockOverlay::add_axes(const NeedleFrame& frame, const ProjectedFragments::
     return;
   }
   add_lines(
-      block, fragment.front,
+      block, outline.size(), fragment.front,
       [&](std::size_t p, std::size_t q, double t) {
         const GridPoint &a = corners[p], &b = corners[q];
         const long double x = static_cast<long double>(b.x - a.x) * static_cast<long double>(t);
@@ -107,41 +127,51 @@ void BlockOverlay::add_axes(const NeedleFrame& frame, const ProjectedFragments::
 /// @param between gives a point of an edge of the outline
 /// @param through gives the line through two of them
 template <class Between, class Through>
-void BlockOverlay::add_lines(const PatchBlock& block, bool front, Between between,
-                             Through through) {
-  const auto add = [&](const auto& from, const auto& to) {
-    // Seen from behind, left is right.
-    lines_.push_back(front ? through(from, to) : through(to, from));
+void BlockOverlay::add_lines(const PatchBlock& block, std::size_t corners, bool front,
+                             Between between, Through through) {
+  const auto on_edge = [&](std::size_t edge, double t) {
+    return between(edge, edge + 1 < corners ? edge + 1 : 0, t);
   };
   const PatchBlocks::Line* line = blocks_.lines.data() + block.lines;
-  for (std::int32_t c = 1; c < block.columns; ++c, ++line) {
-    add(between(0, 1, line->from), between(3, 2, line->to));
-  }
-  for (std::int32_t r = 1; r < block.rows; ++r, ++line) {
-    add(between(1, 2, line->from), between(0, 3, line->to));
+  const std::int32_t count = block.columns + block.rows + block.strips - 3;
+  for (std::int32_t k = 0; k < count; ++k, ++line) {
+    const auto from = on_edge(line->from_edge, line->from), to = on_edge(line->to_edge, line->to);
+    // Seen from behind, left is right.
+    lines_.push_back(front ? through(from, to) : through(to, from));
   }
 }
 
 void BlockOverlay::finish() {
   if (!pool_.empty()) {
-    divide_axis(0, 0, axes_[0].count - 1, 0);
+    divide_axis(0, 0);
   }
 }
 
-/// Divides the part in pool_ from `begin`, which lies in columns or rows `low` to `high`, and takes
-/// it away.
+/// Divides the part in pool_ from `begin`, and takes it away.
+void BlockOverlay::divide_axis(std::size_t axis, std::size_t begin) {
+  if (axis == axes_.size()) {
+    add_cell(begin);
+    return;
+  }
+  const std::int32_t count = axes_[axis].count;
+  if (axis % 3 == 2 && count > 1) {
+    // Two strips cross a cell.
+    const std::int32_t low = axes_[axis - 2].chosen + axes_[axis - 1].chosen;
+    divide_axis(axis, std::min(low, count - 1), std::min(low + 1, count - 1), begin);
+  } else {
+    divide_axis(axis, 0, count - 1, begin);
+  }
+}
+
+/// The same of a part that lies in columns, rows or strips `low` to `high`.
 void BlockOverlay::divide_axis(std::size_t axis, std::int32_t low, std::int32_t high,
                                std::size_t begin) {
   if (low == high) {
     axes_[axis].chosen = low;
-    if (axis + 1 == axes_.size()) {
-      add_cell(begin);
-    } else {
-      divide_axis(axis + 1, 0, axes_[axis + 1].count - 1, begin);
-    }
+    divide_axis(axis + 1, begin);
     return;
   }
-  // Columns below `middle` lie left of the line before it.
+  // What is below `middle` lies left of the line before it.
   const std::int32_t middle = (low + high + 1) / 2;
   std::size_t right = 0;
   const int side =
@@ -221,6 +251,12 @@ void BlockOverlay::close(const NeedleFrame::Line&) {
   }
 }
 
+PatchId BlockOverlay::chosen_patch(const PatchBlock& block, std::size_t first_axis) const {
+  const std::int32_t index = block.index(axes_[first_axis].chosen, axes_[first_axis + 1].chosen,
+                                         axes_[first_axis + 2].chosen);
+  return blocks_.patches[block.patches + static_cast<std::size_t>(index)];
+}
+
 void BlockOverlay::add_cell(std::size_t begin) {
   double twice_area = 0;
   const double x = pool_[begin].ax, y = pool_[begin].ay;
@@ -228,14 +264,16 @@ void BlockOverlay::add_cell(std::size_t begin) {
     const BoundarySegment& s = pool_[k];
     twice_area += (s.ax - x) * (s.by - y) - (s.ay - y) * (s.bx - x);
   }
-  Cell cell{own_->patch(axes_[0].chosen, axes_[1].chosen),
-            other_->patch(axes_[2].chosen, axes_[3].chosen), 0.5 * twice_area,
+  Cell cell{chosen_patch(*own_, 0), chosen_patch(*other_, 3), 0.5 * twice_area,
             static_cast<std::uint32_t>(kept_.size()), 0};
-  if (keep_segments_) {
-    kept_.insert(kept_.end(), pool_.begin() + static_cast<std::ptrdiff_t>(begin), pool_.end());
+  // Beside the outline of a block there is nothing but rounding.
+  if (cell.own != no_patch && cell.other != no_patch) {
+    if (keep_segments_) {
+      kept_.insert(kept_.end(), pool_.begin() + static_cast<std::ptrdiff_t>(begin), pool_.end());
+    }
+    cell.end = static_cast<std::uint32_t>(kept_.size());
+    cells_.push_back(cell);
   }
-  cell.end = static_cast<std::uint32_t>(kept_.size());
-  cells_.push_back(cell);
   pool_.resize(begin);
 }
 

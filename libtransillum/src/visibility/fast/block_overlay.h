@@ -67,6 +67,9 @@ class BlockOverlay {
     finish();
     return cells_;
   }
+  /// Whether the grid of the plane is so coarse beside a block that its patches may not have their
+  /// shares of the area.
+  bool is_narrow(PatchId block) const;
   /// Divides the outline of a fragment by the lines of its own block.
   std::span<const Cell> divide_outline(const ProjectedFragments::Fragment& fragment);
   /// The boundary of a cell; empty unless segments were kept.
@@ -75,11 +78,11 @@ class BlockOverlay {
   }
 
  private:
-  /// The columns or rows of one of the two blocks.
+  /// The columns, rows or strips of one of the two blocks.
   struct Axis {
-    std::int32_t count;
-    std::size_t lines;    ///< first in lines_
-    std::int32_t chosen;  ///< column or row of the part that is being divided
+    std::int32_t count = 1;
+    std::size_t lines = 0;    ///< first in lines_
+    std::int32_t chosen = 0;  ///< the one that holds the part being divided
   };
 
   void begin(const NeedleFrame& frame, const ProjectedFragments::Fragment& own,
@@ -87,11 +90,14 @@ class BlockOverlay {
   void add_axes(const NeedleFrame& frame, const ProjectedFragments::Fragment& fragment,
                 std::size_t first_axis);
   template <class Between, class Through>
-  void add_lines(const PatchBlock& block, bool front, Between between, Through through);
+  void add_lines(const PatchBlock& block, std::size_t corners, bool front, Between between,
+                 Through through);
   void finish();
+  void divide_axis(std::size_t axis, std::size_t begin);
   void divide_axis(std::size_t axis, std::int32_t low, std::int32_t high, std::size_t begin);
   int cut(const NeedleFrame::Line& line, std::size_t begin, std::size_t& middle);
   void close(const NeedleFrame::Line& line);
+  PatchId chosen_patch(const PatchBlock& block, std::size_t first_axis) const;
   void add_cell(std::size_t begin);
 
   const PatchBlocks& blocks_;
@@ -99,7 +105,7 @@ class BlockOverlay {
   const PatchBlock* own_ = nullptr;
   const PatchBlock* other_ = nullptr;
   bool keep_segments_ = false;
-  std::array<Axis, 4> axes_{};            ///< columns and rows of the one, then of the other
+  std::array<Axis, 6> axes_;              ///< columns, rows, strips of the one, then of the other
   std::vector<NeedleFrame::Line> lines_;  ///< the query's block has the first ones
   std::size_t own_lines_ = 0;
   double own_far_ = 0;  ///< largest coordinate of the fragment of the query in its frame

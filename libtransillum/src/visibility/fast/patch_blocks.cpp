@@ -1,318 +1,292 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-//
-// Grids are found by the points that patches share, so that it does not matter who has divided a
-// face: successive patches that share an edge are a row, successive rows that share edges a grid.
 #include "visibility/fast/patch_blocks.h"
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "scene/build/division.h"
 #include "transillum/at.h"
 #include "visibility/bsp/coplanar_overlap.h"
+#include "visibility/fast/patch_grids.h"
 
 namespace transillum {
 namespace {
 
 /// Most columns and rows of a block: what a query resolves is relative to the size of its fragment.
 constexpr std::int32_t largest_block = 4;
-/// Grids with fewer patches are not worth the division of what they see.
-constexpr std::int32_t smallest_grid = 4;
-/// Largest distance of a point from the line of its grid, relative to the largest coordinate.
-constexpr double straight = 0x1p-49;
 
-class BlockFinder {
- public:
-  explicit BlockFinder(const Scene& scene) : scene_(scene) {
-    const Bounds& bounds = scene.bounds();
-    limit_ = straight * std::max(max_abs(bounds.low), max_abs(bounds.high));
-    is_cell_.assign(scene.patches().size(), 0);
-    std::vector<int> pieces(scene.patches().size(), 0);
-    for (const Piece& piece : scene.pieces()) {
-      ++at(pieces, piece.patch);
-      at(is_cell_, piece.patch) = static_cast<std::uint8_t>(scene.corners(piece).size() == 4 &&
-                                                            scene.outline(piece.patch).size() == 4);
+/// A point of a grid: between columns and between rows.
+struct GridPlace {
+  std::int32_t column, row;
+};
+
+/// A part of a grid, or a patch that is in none.
+struct Block {
+  const PatchGrid* grid = nullptr;  ///< null: `patch` as it is
+  PatchId patch = no_patch;
+  std::int32_t column = 0, row = 0, columns = 1, rows = 1;  ///< in the grid
+
+  PatchId smallest_patch() const {
+    if (grid == nullptr) {
+      return patch;
     }
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      is_cell_[i] = static_cast<std::uint8_t>(is_cell_[i] != 0 && pieces[i] == 1);
-    }
-    taken_.assign(scene.patches().size(), 0);
+    PatchId smallest = std::numeric_limits<PatchId>::max();
+    for_each_patch([&](PatchId i) { smallest = std::min(smallest, i); });
+    return smallest;
   }
-
-  /// Grids of at least smallest_grid patches, without lines.
-  std::vector<PatchBlock> find_grids() {
-    std::vector<PatchBlock> grids;
-    for (PatchId i = 0; i < scene_.patch_count(); ++i) {
-      if (at(taken_, i) != 0) {
-        continue;
-      }
-      const PatchBlock grid = grid_from(i);
-      if (grid.columns * grid.rows < smallest_grid || !is_straight(grid)) {
-        continue;
-      }
-      for (std::int32_t r = 0; r < grid.rows; ++r) {
-        for (std::int32_t c = 0; c < grid.columns; ++c) {
-          at(taken_, grid.patch(c, r)) = 1;
+  /// In the order of PatchBlock::index(), without those that the grid does not have.
+  template <class Visit>
+  void for_each_patch(Visit visit) const {
+    if (grid == nullptr) {
+      visit(patch);
+      return;
+    }
+    for (std::int32_t r = row; r < row + rows; ++r) {
+      for (std::int32_t c = column; c < column + columns; ++c) {
+        for (std::int32_t half = 0; half < (grid->halves ? 2 : 1); ++half) {
+          if (grid->patch(c, r, half) != no_patch) {
+            visit(grid->patch(c, r, half));
+          }
         }
       }
-      grids.push_back(grid);
-    }
-    return grids;
-  }
-
-  void add_lines(PatchBlock& block, std::vector<PatchBlocks::Line>& lines) const {
-    block.lines = static_cast<std::uint32_t>(lines.size());
-    const std::int32_t columns = block.columns, rows = block.rows;
-    const auto length = [&](PointId a, PointId b) {
-      return norm(scene_.point(b) - scene_.point(a));
-    };
-    const auto row = [&](std::int32_t c, std::int32_t r) {
-      return length(point(block, 0, r), point(block, c, r));
-    };
-    const auto column = [&](std::int32_t c, std::int32_t r) {
-      return length(point(block, c, 0), point(block, c, r));
-    };
-    for (std::int32_t c = 1; c < columns; ++c) {
-      lines.push_back({row(c, 0) / row(columns, 0), row(c, rows) / row(columns, rows)});
-    }
-    for (std::int32_t r = 1; r < rows; ++r) {
-      lines.push_back({column(columns, r) / column(columns, rows), column(0, r) / column(0, rows)});
     }
   }
-  void add_shares(PatchBlock& block, std::vector<double>& shares) const {
-    block.shares = static_cast<std::uint32_t>(shares.size());
-    double sum = 0;
-    for (std::int32_t r = 0; r < block.rows; ++r) {
-      for (std::int32_t c = 0; c < block.columns; ++c) {
-        shares.push_back(scene_.patch(block.patch(c, r)).area);
-        sum += shares.back();
+  /// Columns plus rows of the last diagonal that the block reaches, from its cell (0, 0).
+  std::int32_t strips() const {
+    return grid->halves ? std::min(columns + rows, grid->columns - column - row) : 1;
+  }
+  /// The corners of its outline: a rectangle, without what lies beyond the last diagonal.
+  std::vector<GridPlace> outline() const {
+    const std::int32_t right = column + columns, top = row + rows;
+    std::vector<GridPlace> places{{column, row}, {right, row}};
+    if (grid->halves && right + top > grid->columns) {
+      places.push_back({right, grid->columns - right});
+      places.push_back({grid->columns - top, top});
+    } else {
+      places.push_back({right, top});
+    }
+    places.push_back({column, top});
+    std::vector<GridPlace> corners;
+    for (const GridPlace& p : places) {
+      const bool again =
+          !corners.empty() && ((p.column == corners.back().column && p.row == corners.back().row) ||
+                               (p.column == column && p.row == row));
+      if (!again) {
+        corners.push_back(p);
       }
     }
-    std::for_each(shares.begin() + block.shares, shares.end(), [&](double& area) { area /= sum; });
+    return corners;
   }
-
-  /// The point between columns c - 1 and c, and rows r - 1 and r.
-  PointId point(const PatchBlock& grid, std::int32_t c, std::int32_t r) const {
-    const bool right = c == grid.columns, top = r == grid.rows;
-    const auto outline = scene_.outline(grid.patch(right ? c - 1 : c, top ? r - 1 : r));
-    return outline[top ? (right ? 2 : 3) : (right ? 1 : 0)];
-  }
-
- private:
-  bool is_free_cell(PatchId i) const {
-    return i >= 0 && i < scene_.patch_count() && at(is_cell_, i) != 0 && at(taken_, i) == 0;
-  }
-  bool have_one_normal(PatchId i, PatchId j) const {
-    return norm(scene_.patch(i).normal - scene_.patch(j).normal) < 1e-12;
-  }
-  /// Whether patch j continues the row of patch i.
-  bool is_next(PatchId i, PatchId j) const {
-    if (!is_free_cell(j) || !have_one_normal(i, j)) {
-      return false;
-    }
-    const auto a = scene_.outline(i), b = scene_.outline(j);
-    return a[1] == b[0] && a[2] == b[3] && continues(a[0], a[1], b[1]) &&
-           continues(a[3], a[2], b[2]);
-  }
-  /// Whether q to r continues the line from p to q, but for rounding.
-  bool continues(PointId p, PointId q, PointId r) const {
-    const Vec3 before = scene_.point(q) - scene_.point(p),
-               after = scene_.point(r) - scene_.point(q);
-    return dot(before, after) > 0 && norm(cross(before, after)) <= 4 * limit_ * norm(before);
-  }
-
-  /// The grid of patches i, i + step, i + 2 step, ...
-  PatchBlock grid_from(PatchId i, PatchId step) const {
-    PatchBlock grid{i, step, 0};
-    if (!is_free_cell(i)) {
-      return grid;
-    }
-    while (is_next(grid.patch(grid.columns - 1, 0), grid.patch(grid.columns, 0))) {
-      ++grid.columns;
-    }
-    const PatchId to_next = grid.columns * step;
-    const bool up = is_row(grid, i, i + to_next, 3, 0);
-    PatchId last = i;
-    while (is_row(grid, last, last + to_next, up ? 3 : 0, up ? 0 : 3)) {
-      last += to_next;
-      ++grid.rows;
-    }
-    grid.first = up ? i : last;
-    grid.row_step = up ? to_next : -to_next;
-    return grid;
-  }
-  /// The larger one of the grids that begin with patch i: the two sides of a face may alternate.
-  PatchBlock grid_from(PatchId i) const {
-    const PatchBlock one = grid_from(i, 1), two = grid_from(i, 2);
-    return one.columns * one.rows >= two.columns * two.rows ? one : two;
-  }
-  /// Whether a row from patch `next` lies beside the row from patch `first`, whose corner `own`
-  /// it shares as its corner `other`.
-  bool is_row(const PatchBlock& grid, PatchId first, PatchId next, std::size_t own,
-              std::size_t other) const {
-    for (std::int32_t c = 0; c < grid.columns; ++c) {
-      const PatchId i = first + c * grid.column_step, j = next + c * grid.column_step;
-      if (!is_free_cell(j) || !have_one_normal(i, j) ||
-          (c > 0 && !is_next(j - grid.column_step, j))) {
-        return false;
-      }
-      const auto a = scene_.outline(i), b = scene_.outline(j);
-      // Corners 3 and 2 are above 0 and 1.
-      if (a[own] != b[other] || a[own ^ 1] != b[other ^ 1] ||
-          !continues(a[other], a[own], b[own]) ||
-          !continues(a[other ^ 1], a[own ^ 1], b[own ^ 1])) {
-        return false;
-      }
-    }
-    return true;
-  }
-
-  /// Whether the points of each column and row follow each other on a line, but for rounding.
-  bool is_straight(const PatchBlock& grid) const {
-    bool all = true;
-    for (std::int32_t c = 0; c <= grid.columns; ++c) {
-      all = all && are_in_line(grid.rows, [&](std::int32_t r) { return point(grid, c, r); });
-    }
-    for (std::int32_t r = 0; r <= grid.rows; ++r) {
-      all = all && are_in_line(grid.columns, [&](std::int32_t c) { return point(grid, c, r); });
-    }
-    return all;
-  }
-  template <class PointAt>
-  bool are_in_line(std::int32_t steps, PointAt at_step) const {
-    const Vec3 start = scene_.point(at_step(0));
-    const Vec3 along = scene_.point(at_step(steps)) - start;
-    Vec3 before = start;
-    for (std::int32_t k = 1; k <= steps; ++k) {
-      const Vec3 p = scene_.point(at_step(k));
-      if (!(dot(p - before, along) > 0) || norm(cross(along, p - start)) > limit_ * norm(along)) {
-        return false;
-      }
-      before = p;
-    }
-    return true;
-  }
-
-  const Scene& scene_;
-  double limit_ = 0;
-  std::vector<std::uint8_t> is_cell_, taken_;
 };
 
 /// The parts of a grid that are no larger than a block.
-void add_blocks(const PatchBlock& grid, std::vector<PatchBlock>& blocks) {
+void add_blocks(const PatchGrid& grid, std::vector<Block>& blocks) {
   const auto parts = [](std::int32_t n) { return (n + largest_block - 1) / largest_block; };
   const std::int32_t across = parts(grid.columns), up = parts(grid.rows);
   for (std::int32_t y = 0; y < up; ++y) {
     for (std::int32_t x = 0; x < across; ++x) {
       const std::int32_t c = x * grid.columns / across, r = y * grid.rows / up;
-      PatchBlock block = grid;
-      block.first = grid.patch(c, r);
-      block.columns = (x + 1) * grid.columns / across - c;
-      block.rows = (y + 1) * grid.rows / up - r;
-      blocks.push_back(block);
-    }
-  }
-}
-
-PatchId smallest_patch(const PatchBlock& block) {
-  return std::min(block.patch(0, 0), block.patch(0, block.rows - 1));
-}
-
-/// Replaces blocks by their patches.
-void dissolve(const std::vector<bool>& chosen, std::vector<PatchBlock>& blocks) {
-  std::vector<PatchBlock> kept;
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
-    if (!chosen[k]) {
-      kept.push_back(blocks[k]);
-      continue;
-    }
-    for (std::int32_t r = 0; r < blocks[k].rows; ++r) {
-      for (std::int32_t c = 0; c < blocks[k].columns; ++c) {
-        kept.push_back({blocks[k].patch(c, r)});
+      std::int32_t columns = (x + 1) * grid.columns / across - c;
+      std::int32_t rows = (y + 1) * grid.rows / up - r;
+      if (grid.halves) {
+        columns = std::min(columns, grid.columns - c - r);
+        rows = std::min(rows, grid.columns - c - r);
+      }
+      if (columns > 0) {
+        blocks.push_back({&grid, no_patch, c, r, columns, rows});
       }
     }
   }
-  blocks = std::move(kept);
 }
 
-void add_single_patches(const Scene& scene, std::vector<PatchBlock>& blocks) {
-  std::vector<bool> in_block(scene.patches().size(), false);
-  for (const PatchBlock& block : blocks) {
-    for (std::int32_t r = 0; r < block.rows; ++r) {
-      for (std::int32_t c = 0; c < block.columns; ++c) {
-        in_block[static_cast<std::size_t>(block.patch(c, r))] = true;
+/// Makes PatchBlocks of blocks.
+class BlockBuilder {
+ public:
+  BlockBuilder(const Scene& scene, const Cancellation& cancellation)
+      : scene_(scene), cancellation_(cancellation), grids_(patch_grids(scene)) {
+    for (const PatchGrid& grid : grids_) {
+      add_blocks(grid, blocks_);
+    }
+    std::vector<bool> in_block(scene.patches().size(), false);
+    for (const Block& block : blocks_) {
+      block.for_each_patch([&](PatchId i) { in_block[static_cast<std::size_t>(i)] = true; });
+    }
+    for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      if (!in_block[static_cast<std::size_t>(i)]) {
+        blocks_.push_back({nullptr, i});
       }
     }
+    sort();
   }
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    if (!in_block[static_cast<std::size_t>(i)]) {
-      blocks.push_back({i});
+
+  bool pay() const { return 2 * blocks_.size() <= scene_.patches().size(); }
+
+  std::shared_ptr<const Scene> united() const {
+    std::vector<UnitedPatch> patches;
+    for (const Block& block : blocks_) {
+      UnitedPatch& patch = patches.emplace_back();
+      patch.like = block.smallest_patch();
+      if (block.grid != nullptr) {
+        for (const GridPlace& corner : block.outline()) {
+          patch.outline.push_back(block.grid->point(corner.column, corner.row));
+        }
+      }
+    }
+    return with_united(scene_, patches, cancellation_);
+  }
+
+  /// Replaces blocks by their patches.
+  void dissolve(const std::vector<bool>& chosen) {
+    std::vector<Block> kept;
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+      if (chosen[k]) {
+        blocks_[k].for_each_patch([&](PatchId i) { kept.push_back({nullptr, i}); });
+      } else {
+        kept.push_back(blocks_[k]);
+      }
+    }
+    blocks_ = std::move(kept);
+    sort();
+  }
+
+  std::shared_ptr<const PatchBlocks> build(std::shared_ptr<const Scene> united) {
+    const auto built = std::make_shared<PatchBlocks>();
+    built->scene = std::move(united);
+    for (const Block& block : blocks_) {
+      PatchBlock& made = built->blocks.emplace_back();
+      made.patches = static_cast<std::uint32_t>(built->patches.size());
+      made.lines = static_cast<std::uint32_t>(built->lines.size());
+      if (block.grid == nullptr) {
+        built->patches.push_back(block.patch);
+        built->shares.push_back(1);
+        continue;
+      }
+      made.columns = block.columns;
+      made.rows = block.rows;
+      made.strips = block.strips();
+      add_patches(block, *built);
+      add_lines(block, built->lines);
+    }
+    return built;
+  }
+
+ private:
+  /// In the order of their patches, so that the two sides of a face stay together.
+  void sort() {
+    std::stable_sort(blocks_.begin(), blocks_.end(), [](const Block& a, const Block& b) {
+      return a.smallest_patch() < b.smallest_patch();
+    });
+  }
+
+  void add_patches(const Block& block, PatchBlocks& built) const {
+    double sum = 0;
+    const std::size_t first = built.patches.size();
+    for (std::int32_t r = block.row; r < block.row + block.rows; ++r) {
+      for (std::int32_t c = block.column; c < block.column + block.columns; ++c) {
+        for (std::int32_t half = 0; half < (block.grid->halves ? 2 : 1); ++half) {
+          const PatchId i = block.grid->patch(c, r, half);
+          built.patches.push_back(i);
+          built.shares.push_back(i == no_patch ? 0 : scene_.patch(i).area);
+          sum += built.shares.back();
+        }
+      }
+    }
+    for (std::size_t k = first; k < built.shares.size(); ++k) {
+      built.shares[k] /= sum;
     }
   }
-}
+
+  void add_lines(const Block& block, std::vector<PatchBlocks::Line>& lines) const {
+    const std::vector<GridPlace> outline = block.outline();
+    const std::int32_t left = block.column, low = block.row;
+    const std::int32_t right = left + block.columns, top = low + block.rows;
+    const std::int32_t last = block.grid->halves ? block.grid->columns : right + top;
+    const auto add = [&](const GridPlace& from, const GridPlace& to) {
+      const OnEdge a = on_edge(block, outline, from), b = on_edge(block, outline, to);
+      lines.push_back({a.edge, b.edge, a.t, b.t});
+    };
+    for (std::int32_t c = left + 1; c < right; ++c) {
+      add({c, low}, {c, std::min(top, last - c)});
+    }
+    for (std::int32_t r = low + 1; r < top; ++r) {
+      add({std::min(right, last - r), r}, {left, r});
+    }
+    for (std::int32_t k = 1; k < block.strips(); ++k) {
+      const std::int32_t d = left + low + k;
+      add(d - low <= right ? GridPlace{d - low, low} : GridPlace{right, d - right},
+          d - left <= top ? GridPlace{left, d - left} : GridPlace{d - top, top});
+    }
+  }
+
+  struct OnEdge {
+    std::uint8_t edge;
+    double t;
+  };
+  /// The edge of a block's outline on which a point of its grid lies, and where.
+  OnEdge on_edge(const Block& block, const std::vector<GridPlace>& outline,
+                 const GridPlace& place) const {
+    const auto position = [&](const GridPlace& p) {
+      return scene_.point(block.grid->point(p.column, p.row));
+    };
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+      const GridPlace &a = outline[k], &b = outline[(k + 1) % outline.size()];
+      const std::int32_t dx = b.column - a.column, dy = b.row - a.row;
+      const std::int32_t px = place.column - a.column, py = place.row - a.row;
+      const std::int32_t along = dx * px + dy * py;
+      if (dx * py == dy * px && along >= 0 && along <= dx * dx + dy * dy) {
+        return {static_cast<std::uint8_t>(k),
+                norm(position(place) - position(a)) / norm(position(b) - position(a))};
+      }
+    }
+    throw std::logic_error("a line of a block ends on its outline");
+  }
+
+  const Scene& scene_;
+  const Cancellation& cancellation_;
+  std::vector<PatchGrid> grids_;
+  std::vector<Block> blocks_;
+};
 
 }  // namespace
 
 std::vector<double> PatchBlocks::smallest_shares() const {
   std::vector<double> smallest;
   for (const PatchBlock& block : blocks) {
-    const auto first = shares.begin() + block.shares;
-    smallest.push_back(*std::min_element(first, first + block.columns * block.rows));
+    double least = 1;
+    for (std::int32_t k = 0; k < block.size(); ++k) {
+      const double share = shares[block.patches + static_cast<std::size_t>(k)];
+      least = share > 0 ? std::min(least, share) : least;
+    }
+    smallest.push_back(least);
   }
   return smallest;
 }
 
 std::shared_ptr<const PatchBlocks> PatchBlocks::of(const Scene& scene,
                                                    const Cancellation& cancellation) {
-  BlockFinder finder(scene);
-  auto found = std::make_shared<PatchBlocks>();
-  for (const PatchBlock& grid : finder.find_grids()) {
-    add_blocks(grid, found->blocks);
-  }
-  add_single_patches(scene, found->blocks);
-  if (found->blocks.size() > scene.patches().size() / 2) {
+  BlockBuilder builder(scene, cancellation);
+  if (!builder.pay()) {
     return nullptr;
   }
-  const auto unite = [&] {
-    // In the order of their patches, so that the two sides of a face stay together.
-    std::sort(found->blocks.begin(), found->blocks.end(),
-              [](const PatchBlock& a, const PatchBlock& b) {
-                return smallest_patch(a) < smallest_patch(b);
-              });
-    std::vector<UnitedPatch> united;
-    for (const PatchBlock& block : found->blocks) {
-      UnitedPatch& patch = united.emplace_back();
-      patch.like = block.first;
-      if (!block.is_single()) {
-        patch.outline = {finder.point(block, 0, 0), finder.point(block, block.columns, 0),
-                         finder.point(block, block.columns, block.rows),
-                         finder.point(block, 0, block.rows)};
-      }
-    }
-    found->scene = with_united(scene, united, cancellation);
-  };
-  unite();
+  auto united = builder.united();
   // Where faces of one plane overlap, the smaller patch covers the larger one.
   const auto overlaps =
-      coplanar_overlaps(*found->scene, std::numeric_limits<std::size_t>::max(), cancellation);
+      coplanar_overlaps(*united, std::numeric_limits<std::size_t>::max(), cancellation);
   if (!overlaps.empty()) {
-    std::vector<bool> overlapping(found->blocks.size(), false);
+    std::vector<bool> overlapping(united->patches().size(), false);
     for (const CoplanarOverlap& overlap : overlaps) {
       overlapping[static_cast<std::size_t>(overlap.upper)] = true;
       overlapping[static_cast<std::size_t>(overlap.lower)] = true;
     }
-    dissolve(overlapping, found->blocks);
-    if (found->blocks.size() > scene.patches().size() / 2) {
+    builder.dissolve(overlapping);
+    if (!builder.pay()) {
       return nullptr;
     }
-    unite();
+    united = builder.united();
   }
-  for (PatchBlock& block : found->blocks) {
-    finder.add_lines(block, found->lines);
-    finder.add_shares(block, found->shares);
-  }
-  return found;
+  return builder.build(std::move(united));
 }
 
 }  // namespace transillum

@@ -101,18 +101,16 @@ class VisibleAreas {
       visit(patch_of(fragment), cost);
       return;
     }
-    const PatchBlock& block = at(blocks_->blocks, fragment.patch);
-    const std::int32_t count = block.columns * block.rows;
+    std::int32_t count = 0;
+    for_each_patch(fragment, [&](PatchId, double) { ++count; });
     PatchCost share;
     share.seconds = cost.seconds / count;
     share.candidates = cost.candidates / count;
     PatchCost rest = cost;
     rest.seconds = 0;
     rest.candidates -= count * share.candidates;
-    visit(block.first, rest);
-    for (std::int32_t k = 0; k < count; ++k) {
-      visit(block.patch(k % block.columns, k / block.columns), share);
-    }
+    visit(patch_of(fragment), rest);
+    for_each_patch(fragment, [&](PatchId patch, double) { visit(patch, share); });
   }
 
   bool have_moments() const { return moments_.has_value(); }
@@ -152,31 +150,30 @@ class VisibleAreas {
  private:
   /// Parts below this, relative to the area of a patch, are the rounding of lines.
   static constexpr double negligible = 0x1p-46;
-  /// A fragment is narrow if its perimeter over its area, 1 over grid units, is at least this.
-  static constexpr double narrow = 0x1p-45;
 
-  /// The patch of a fragment that is no block.
+  /// The patch of a fragment, or the first one of its block.
   PatchId patch_of(const ProjectedFragments::Fragment& fragment) const {
-    return blocks_ != nullptr ? at(blocks_->blocks, fragment.patch).first : fragment.patch;
+    return blocks_ != nullptr ? blocks_->patches[at(blocks_->blocks, fragment.patch).patches]
+                              : fragment.patch;
+  }
+  /// Calls visit(patch, share) for each patch of a block, with its share of the area.
+  template <class Visit>
+  void for_each_patch(const ProjectedFragments::Fragment& fragment, Visit visit) const {
+    const PatchBlock& block = at(blocks_->blocks, fragment.patch);
+    for (std::int32_t k = 0; k < block.size(); ++k) {
+      const std::size_t index = block.patches + static_cast<std::size_t>(k);
+      if (blocks_->patches[index] != no_patch) {
+        visit(blocks_->patches[index], blocks_->shares[index]);
+      }
+    }
   }
 
   /// Calls visit(patch, area) for each patch of a block, with its part of a fragment's area.
   template <class Visit>
   void for_each_share(const ProjectedFragments::Fragment& fragment, Visit visit) {
-    const std::size_t count = fragment.end - fragment.begin;
-    const auto corners =
-        std::span<const GridPoint>(projected_.corners).subspan(fragment.begin, count);
-    double perimeter = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      const GridPoint &a = corners[k], &b = corners[(k + 1) % count];
-      perimeter += static_cast<double>(std::abs(b.x - a.x) + std::abs(b.y - a.y));
-    }
-    if (perimeter < narrow * fragment.area) {
-      const PatchBlock& block = at(blocks_->blocks, fragment.patch);
-      const double* share = blocks_->shares.data() + block.shares;
-      for (std::int32_t k = 0; k < block.columns * block.rows; ++k) {
-        visit(block.patch(k % block.columns, k / block.columns), share[k] * fragment.area);
-      }
+    if (!overlay_->is_narrow(fragment.patch)) {
+      for_each_patch(fragment,
+                     [&](PatchId patch, double share) { visit(patch, share * fragment.area); });
       return;
     }
     // Rounding to the grid has changed the shares.
