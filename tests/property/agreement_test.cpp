@@ -234,6 +234,46 @@ TEST_P(AgreementImperfect, OnRoundedAndTurnedScenes) {
 }
 INSTANTIATE_TEST_SUITE_P(Tens, AgreementImperfect, ::testing::Range(0, 20));
 
+/// Some six patches a face, which engine fast queries in blocks.
+void expect_agreement_on_divided(std::uint64_t seed, MakeScene make) {
+  testing::RandomScene random = make(seed);
+  const Scene whole(random.description, random.options);
+  double area = 0;
+  for (const Patch& patch : whole.patches()) {
+    area += patch.area;
+  }
+  random.options.max_patch_area = area / (6.0 * whole.patch_count());
+  const auto scene = std::make_shared<const Scene>(random.description, random.options);
+  const auto tree = std::make_shared<const BspTree>(*scene);
+  const TransferEngine fast = make_engine(Engine::fast, scene, tree);
+  const TransferEngine local = make_engine(Engine::local, scene, tree);
+  for (const Vec3& omega : random.directions) {
+    const auto found = testing::difference(*scene, local(omega, {}), fast(omega, {}));
+    ASSERT_LE(found.fraction, 1e-10) << fmt::format("{} {}, direction {},{},{}, {}", scene->name(),
+                                                    seed, omega.x, omega.y, omega.z, found.where);
+  }
+}
+
+void expect_agreement_on_divided(int first, int count) {
+  for (int k = first; k < first + count; ++k) {
+    const auto seed = static_cast<std::uint64_t>(k);
+    ASSERT_NO_FATAL_FAILURE(expect_agreement_on_divided(seed, testing::random_scene));
+    ASSERT_NO_FATAL_FAILURE(expect_agreement_on_divided(seed, testing::random_imperfect_scene));
+  }
+}
+
+class AgreementDivided : public ::testing::TestWithParam<int> {};
+TEST_P(AgreementDivided, OnDegenerateAndRoundedScenes) {
+  expect_agreement_on_divided(10 * GetParam(), 10);
+}
+INSTANTIATE_TEST_SUITE_P(Tens, AgreementDivided, ::testing::Range(0, 20));
+
+class NightlyAgreementDivided : public ::testing::TestWithParam<int> {};
+TEST_P(NightlyAgreementDivided, OnDegenerateAndRoundedScenes) {
+  expect_agreement_on_divided(500 * GetParam(), 500);
+}
+INSTANTIATE_TEST_SUITE_P(FiveHundreds, NightlyAgreementDivided, ::testing::Range(1, 11));
+
 /// A small box whose back a large wall sees by less than rounding of the wall's own area.
 TEST(AgreementImperfectRegression, OnASmallPatchSeenByALargeOne) {
   expect_agreement_on(661, testing::random_imperfect_scene);

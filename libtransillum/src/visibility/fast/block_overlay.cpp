@@ -171,7 +171,7 @@ void BlockOverlay::divide_axis(std::size_t axis, std::int32_t low, std::int32_t 
     divide_axis(axis + 1, begin);
     return;
   }
-  // What is below `middle` lies left of the line before it.
+  // All below `middle` lies left of the line before it.
   const std::int32_t middle = (low + high + 1) / 2;
   std::size_t right = 0;
   const int side =

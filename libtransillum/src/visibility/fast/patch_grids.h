@@ -17,7 +17,7 @@ namespace transillum {
 /// right; it ends at the last diagonal.
 struct PatchGrid {
   std::int32_t columns = 0, rows = 0;
-  bool halves = false;           ///< it is a triangle
+  bool halves = false;           ///< this is a triangle
   std::vector<PointId> points;   ///< (columns + 1) a row, from below
   std::vector<PatchId> patches;  ///< row by row; in a triangle, two a cell
 
