@@ -283,7 +283,8 @@ TEST(PictureFigures, RefuseOtherEndingsAndValues) {
   const auto refused = [](const auto& write, const std::string& message) {
     EXPECT_THAT(write, ThrowsMessage<InputError>(HasSubstr(message)));
   };
-  refused([&] { write_figure(folder / "p.png", small_picture(), {}); }, "must end in .svg or .pdf");
+  refused([&] { write_figure(folder / "p.exr", small_picture(), {}); },
+          "must end in .png, .svg or .pdf");
   refused([&] { check_figure_path(folder / "p.gif"); }, "must end in .png, .svg, .pdf, .exr or");
   refused([&] { check_figure_path("/no/such/folder/p.pdf"); }, "/no/such/folder");
   refused([&] { write_figure(folder / "p.pdf", {}, {}); }, "0 colors for 0 by 0 pixels");

@@ -460,7 +460,7 @@ TEST(Picture, RefusesWhatHasNoPicture) {
   options.width = 0;
   EXPECT_THAT(refused({eye, target}, options), HasSubstr("width in pixels is 0"));
   options.width = 100000;
-  EXPECT_THAT(refused({eye, target}, options), HasSubstr("1 to 32768"));
+  EXPECT_THAT(refused({eye, target}, options), HasSubstr("1 to 32767"));
 }
 
 TEST(Picture, IsCanceledAtOnce) {

@@ -11,7 +11,9 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSpinBox>
+#include <QTemporaryDir>
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "directions/lobe_view.h"
@@ -20,6 +22,7 @@
 #include "model/snapshot_values.h"
 #include "solve/progress_line.h"
 #include "solved_window.h"
+#include "test_files.h"
 #include "transillum/glossy.h"
 
 namespace transillum::viewer::glossy_test {
@@ -262,6 +265,34 @@ class GlossyTest : public QObject {
     QVERIFY(lobes->arriving().empty());
     const auto& leaving = lobes->leaving();
     QVERIFY(max_abs(leaving.front().light - leaving.back().light) == 0);
+  }
+
+  // The sun comes from one direction, so it is no line among the densities of the others.
+  void the_sun_is_marked_with_its_irradiance() {
+    const QTemporaryDir folder;
+    write_file(folder.filePath("yard.mtl"),
+               "newmtl shiny\nKd .3 .3 .3\nKs .4 .4 .4\nNs 8\nnewmtl plain\nKd .5 .5 .5\n");
+    SolveOptions options{.directions = 64, .first_shot = {}, .glossy = true};
+    options.sky.sun = {{100, 50, 25}, normalized({1, 0, 1})};
+    GlossyWindow w(options, write_file(folder.filePath("yard.obj"),
+                                       "mtllib yard.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                                       "v 9 0 0\nv 10 0 0\nv 10 1 0\nv 9 1 0\n"
+                                       "usemtl shiny\nf 1 2 3 4\nusemtl plain\nf 5 6 7 8\n"));
+    QVERIFY(w.ready);
+    auto* lobes = w.window->findChild<LobeView*>();
+    w.window->selection.select(w.patch_of("shiny"));
+    const LobeView::Ray sun = lobes->sun();
+    QVERIFY(max_abs(sun.light - std::sqrt(0.5) * Rgb{100, 50, 25}) < 1e-9);
+    QVERIFY(std::abs(sun.direction.z - std::sqrt(0.5)) < 1e-9);
+    // All light of the patch comes from the sun, and leaves most strongly about its mirror.
+    const auto brightest = std::max_element(lobes->leaving().begin(), lobes->leaving().end(),
+                                            [](const LobeView::Ray& a, const LobeView::Ray& b) {
+                                              return luminance(a.light) < luminance(b.light);
+                                            });
+    const Vec3 mirror{-sun.direction.x, -sun.direction.y, sun.direction.z};
+    QVERIFY(dot(brightest->direction, mirror) > 0.9);
+    w.window->selection.select(w.patch_of("plain"));
+    QVERIFY(max_abs(lobes->sun().light) == 0);
   }
 
   void gloss_is_changed_without_a_pass() {

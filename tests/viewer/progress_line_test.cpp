@@ -100,6 +100,22 @@ class ProgressLineTest : public QObject {
     QVERIFY(!bar.isHidden());
   }
 
+  // A full bar does not say that the solve continues.
+  void between_iterations_a_full_bar_says_that_the_next_begins() {
+    const auto snapshot = test::solved_snapshot("cornell-box", 32);
+    snapshot->progress.iteration = 2;
+    snapshot->progress.direction = 0;
+    ProgressLine line;
+    const auto& phase = *line.findChild<QLabel*>("phase");
+    const auto& bar = *line.findChild<QProgressBar*>("progress");
+    line.show_state(RunState::running);
+    line.show_snapshot(snapshot);
+    QCOMPARE(bar.value(), bar.maximum());
+    QCOMPARE(phase.text(), QString("2 iterations done, the next begins"));
+    line.show_state(RunState::paused);
+    QCOMPARE(phase.text(), QString("Paused: 2 iterations done"));
+  }
+
   void a_surface_in_the_dark_is_said_to_be_so() {
     const auto snapshot = reached("cellar");
     snapshot->accuracy->is_dark = true;

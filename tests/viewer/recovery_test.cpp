@@ -22,6 +22,7 @@
 #include "widgets/banner.h"
 #include "window/base/open_scene.h"
 #include "window/base/view_state_applier.h"
+#include "window/editing/scene_edits.h"
 #include "window/files/export_actions.h"
 #include "window/files/file_actions.h"
 #include "window/files/frame_recorder.h"
@@ -48,6 +49,14 @@ struct RecoveringWindow {
   explicit RecoveringWindow(const QTemporaryDir& folder)
       : recovery(window->frame(), session, folder.path()) {}
 };
+
+/// Copies session, solve and faces.
+void copy_all(const QString& from, const QString& to) {
+  for (const QFileInfo& file :
+       QDir(from).entryInfoList({"*.json", "*.tck", "*.obj", "*.mtl"}, QDir::Files)) {
+    QVERIFY(QFile::copy(file.filePath(), to + '/' + file.fileName()));
+  }
+}
 
 /// Answers each question about long work with a button.
 struct Answers {
@@ -158,6 +167,48 @@ class RecoveryTest : public QObject {
     QVERIFY(window->snapshot()->radiosity == radiosity);
     QCOMPARE(window->selection.patch(), 5);
     QVERIFY(!QFile::exists(kept));
+  }
+
+  // A session named faces that no file had, so it could not be opened.
+  void edited_faces_survive_a_killed_program() {
+    const QTemporaryDir folder, killed;
+    std::vector<Rgb> radiosity;
+    {
+      RecoveringWindow w(folder);
+      const auto& window = w.window;
+      window->open("cornell-box");
+      QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+      auto* edits = window->findChild<SceneEdits*>();
+      edits->add(AddedSolid::board);
+      QVERIFY(wait_for([&] {
+        return !edits->busy() && window->scene.has_unsaved_faces() && window->settled();
+      }));
+      w.recovery.keep();
+      copy_all(folder.path(), killed.path());
+      const QStringList faces{"*.obj", "*.mtl"};
+      QCOMPARE(QDir(killed.path()).entryList(faces).size(), 2);
+      radiosity = window->snapshot()->radiosity;
+      // The faces are in the user's file now.
+      const QTemporaryDir own;
+      window->findChild<ExportActions*>()->write_scene_file(own.filePath("saved.obj"));
+      w.recovery.keep();
+      QVERIFY(QDir(folder.path()).entryList(faces).isEmpty());
+    }
+    copy_all(killed.path(), folder.path());
+    RecoveringWindow w(folder);
+    const auto& window = w.window;
+    w.recovery.offer();
+    window->findChild<QPushButton*>("restore_session")->click();
+    QVERIFY(wait_for([&] {
+      return window->snapshot() && window->snapshot()->progress.finished && window->settled();
+    }));
+    QVERIFY(window->snapshot()->radiosity == radiosity);
+    QVERIFY(window->scene.has_unsaved_faces());
+    QCOMPARE(window->scene.spec(), std::string("cornell-box (edited)"));
+    QVERIFY(window->findChild<SceneEdits*>()->why_unavailable().isEmpty());
+    for (const QString& name : QDir(killed.path()).entryList({"*.json", "*.obj", "*.mtl"})) {
+      QVERIFY2(!QFile::exists(folder.filePath(name)), qPrintable(name));
+    }
   }
 
   void every_kept_session_is_offered_until_it_is_discarded() {

@@ -5,6 +5,7 @@
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QSpinBox>
+#include <QStyleOption>
 #include <limits>
 
 #include "scene/build/patch_count.h"
@@ -25,6 +26,15 @@ std::shared_ptr<const SolverSnapshot> in_effect(const SolveOptions& options) {
   auto snapshot = std::make_shared<SolverSnapshot>();
   snapshot->options = options;
   return snapshot;
+}
+
+/// Width for the text of a box, pixels.
+int room_for_text(const QComboBox& box) {
+  QStyleOptionComboBox look;
+  look.initFrom(&box);
+  return box.style()
+      ->subControlRect(QStyle::CC_ComboBox, &look, QStyle::SC_ComboBoxEditField, &box)
+      .width();
 }
 
 }  // namespace
@@ -306,6 +316,12 @@ class SettingsTest : public QObject {
         if (label->isVisibleTo(panel) && !label->wordWrap()) {
           QVERIFY2(label->width() >= label->sizeHint().width(), qPrintable(label->text()));
         }
+      }
+      const auto& stop_at = *panel->findChild<QComboBox*>("stop_at");
+      for (int k = 0; k < stop_at.count(); ++k) {
+        QVERIFY2(
+            room_for_text(stop_at) >= stop_at.fontMetrics().horizontalAdvance(stop_at.itemText(k)),
+            qPrintable(stop_at.itemText(k)));
       }
       save_picture(window, dark ? "settings-dark" : "settings-light");
       save_picture(*panel, dark ? "settings-panel-dark" : "settings-panel-light");

@@ -76,6 +76,7 @@ void LobeView::forget() {
   known_ = false;
   arriving_.clear();
   leaving_.clear();
+  sun_ = {};
   update();
 }
 
@@ -107,6 +108,7 @@ void LobeView::find_light() {
   const auto in_frame = [&](const Vec3& d) {
     return Vec3{dot(d, right_), dot(d, ahead_), dot(d, normal_)};
   };
+  sun_ = {in_frame(snapshot_->options.sky.sun.direction), light.sun_irradiance(patch)};
   const auto arriving = light.arriving(patch);
   for (int k = 0; k < std::ssize(arriving); ++k) {
     arriving_.push_back(
@@ -128,6 +130,11 @@ void LobeView::find_light() {
 const std::vector<LobeView::Ray>& LobeView::arriving() {
   find_light();
   return arriving_;
+}
+
+const LobeView::Ray& LobeView::sun() {
+  find_light();
+  return sun_;
 }
 
 const std::vector<LobeView::Ray>& LobeView::leaving() {
@@ -341,16 +348,26 @@ void LobeView::paintEvent(QPaintEvent*) {
   const Plot left = plot_in(first, arriving_), right = plot_in(second, leaving_);
   draw_ground(painter, left);
   draw_arriving(painter, left);
-  const Ray* source = strongest();
   draw_texts(
       painter, left, tr("Arrives: Φ"),
       arriving_.empty() ? tr("kept by direction only for lobes") : tr("flux density by direction"));
   draw_ground(painter, right);
   draw_leaving(painter, right);
-  if (source) {
-    const Vec3 mirror{-source->direction.x, -source->direction.y, source->direction.z};
+  draw_marks(painter, left, right);
+  draw_texts(painter, right, tr("Leaves: L"), tr("radiance by direction"));
+}
+
+/// The sun comes from one direction: its light is no density, and has no length in the left plot.
+void LobeView::draw_marks(QPainter& painter, const Plot& left, const Plot& right) const {
+  const auto mirrored = [](const Vec3& d) { return Vec3{-d.x, -d.y, d.z}; };
+  if (const Ray* source = strongest()) {
     draw_mark(painter, left, source->direction, theme::on_dark, tr("strongest"));
-    draw_mark(painter, right, mirror, theme::on_dark, tr("its mirror"));
+    draw_mark(painter, right, mirrored(source->direction), theme::on_dark, tr("its mirror"));
+  }
+  if (max_abs(sun_.light) > 0) {
+    draw_mark(painter, left, sun_.direction, theme::inside,
+              tr("sun: %1 W/m²").arg(number_text(luminance(sun_.light))));
+    draw_mark(painter, right, mirrored(sun_.direction), theme::inside, tr("mirror of the sun"));
   }
   const Vec3 eye = toward_eye();
   if (eye.z > 0) {
@@ -359,7 +376,6 @@ void LobeView::paintEvent(QPaintEvent*) {
               tr("eye: %1").arg(
                   number_text(luminance(snapshot_->glossy->radiance(selection_.patch(), world)))));
   }
-  draw_texts(painter, right, tr("Leaves: L"), tr("radiance by direction"));
 }
 
 void LobeView::mousePressEvent(QMouseEvent* event) { last_ = event->localPos(); }

@@ -31,6 +31,9 @@ class LobeView : public QWidget {
   };
   /// The points of the left plot; empty where nothing is kept by direction.
   const std::vector<Ray>& arriving();
+  /// The light of the sun that arrives from its direction, W/m², which is no part of arriving(); 0
+  /// where nothing is kept by direction.
+  const Ray& sun();
   /// The points of the right plot: `rings` + 1 times `sectors`, by angle from the normal.
   const std::vector<Ray>& leaving();
   static constexpr int rings = 22, sectors = 64;
@@ -62,6 +65,7 @@ class LobeView : public QWidget {
   void draw_ground(QPainter& painter, const Plot& plot) const;
   void draw_arriving(QPainter& painter, const Plot& plot) const;
   void draw_leaving(QPainter& painter, const Plot& plot) const;
+  void draw_marks(QPainter& painter, const Plot& left, const Plot& right) const;
   void draw_mark(QPainter& painter, const Plot& plot, const Vec3& direction, const QColor& color,
                  const QString& text) const;
   void draw_texts(QPainter& painter, const Plot& plot, const QString& title,
@@ -74,6 +78,7 @@ class LobeView : public QWidget {
   std::shared_ptr<const SolverSnapshot> snapshot_;
   bool known_ = false;  ///< arriving_ and leaving_ belong to the snapshot and the selection
   std::vector<Ray> arriving_, leaving_;
+  Ray sun_;
   Vec3 right_{1, 0, 0}, ahead_{0, 1, 0}, normal_{0, 0, 1};  ///< the patch's frame
   double turn_ = 0.9, tilt_ = 0.42;                         ///< radians
   QPointF last_;

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "support/number_text.h"
 #include "widgets/build.h"
 #include "widgets/channel_sliders.h"
 #include "widgets/elided.h"
@@ -262,7 +263,7 @@ QString MaterialPanel::extent_text() const {
   }
   const MaterialEdits::Extent extent = relighting_.edits().extent_of(target());
   const QString patches =
-      extent.patches == 1 ? tr("1 patch") : tr("%1 patches").arg(extent.patches);
+      extent.patches == 1 ? tr("1 patch") : tr("%1 patches").arg(count_text(extent.patches));
   return extent.uniform ? patches : tr("%1 with different values").arg(patches);
 }
 

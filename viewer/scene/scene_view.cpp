@@ -1,11 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Implementation of the 3-D view: actors for the colored patches, the selection, the direction and
-// the current step; camera; picking by the scene's Embree picker.
+// the current step; picking by the scene's Embree picker.
 #include "scene/scene_view.h"
 
 #include <QVTKOpenGLNativeWidget.h>
-#include <vtkCamera.h>
 #include <vtkCommand.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkPolyDataMapper.h>
@@ -33,12 +32,6 @@ namespace {
 
 // Antialiasing is slow without a GPU: it is off until no step has come for this long.
 constexpr int rest_ms = 150;
-
-Vec3 vec3(const double p[3]) { return {p[0], p[1], p[2]}; }
-
-double aspect_of(const QSize& size) {
-  return static_cast<double>(size.width()) / std::max(size.height(), 1);
-}
 
 }  // namespace
 
@@ -274,99 +267,6 @@ void SceneView::draw_paths() {
   render();
 }
 
-void SceneView::reset_view() {
-  if (loaded_) {
-    fit([this] {
-      const ViewPoint view = initial_view(*loaded_->scene, aspect(), vertical_);
-      focus_point_ = view.target;
-      radius_ = view.radius;
-      return view;
-    });
-  }
-}
-
-void SceneView::fit(std::function<ViewPoint()> view) {
-  refit_ = std::move(view);
-  set_camera(refit_());
-  fitted_ = view_point();
-}
-
-/// Fits the view to a new size. A view that was set as it is stays until the camera is moved.
-void SceneView::follow_size(const QSize& before) {
-  if (!loaded_) {
-    return;
-  }
-  if (!(view_point() == fitted_) && !before.isEmpty()) {
-    refit_ = [this, moved = view_point(), old = aspect_of(before)] {
-      return widened(moved, old, aspect());
-    };
-  }
-  if (refit_) {
-    fit(refit_);
-  }
-}
-
-double SceneView::aspect() const { return aspect_of(canvas_->size()); }
-
-void SceneView::fit_all() {
-  if (loaded_) {
-    fit([this] { return fitting_view(*loaded_->scene, view_point(), aspect()); });
-  }
-}
-
-void SceneView::fit_selected() {
-  const PatchId patch = selection_.patch();
-  if (loaded_ && patch >= 0 && patch < loaded_->scene->patch_count()) {
-    set_camera(patch_view(*loaded_->scene, patch, view_point()));
-  }
-}
-
-void SceneView::view_from_side(Side side) {
-  if (loaded_) {
-    fit([this, side] { return standard_view(*loaded_->scene, side, aspect(), vertical_); });
-  }
-}
-
-ViewPoint SceneView::view_point() const {
-  vtkCamera* camera = renderer_->GetActiveCamera();
-  return {vec3(camera->GetPosition()), vec3(camera->GetFocalPoint()), vec3(camera->GetViewUp()),
-          camera->GetViewAngle(), radius_};
-}
-
-void SceneView::set_view_point(const ViewPoint& view) {
-  if (loaded_) {
-    set_camera(view);
-    refit_ = nullptr;
-    fitted_ = view_point();
-  }
-}
-
-void SceneView::turn(double azimuth, double elevation) {
-  if (loaded_) {
-    set_camera(turned(view_point(), vertical_, azimuth, elevation));
-  }
-}
-
-void SceneView::set_turntable(bool turntable) {
-  turntable_ = turntable;
-  auto* style = static_cast<CameraStyle*>(canvas_->interactor()->GetInteractorStyle());
-  style->turn = nullptr;
-  if (turntable) {
-    style->turn = [this](double azimuth, double elevation) { turn(azimuth, elevation); };
-    turn(0, 0);
-  }
-}
-
-void SceneView::set_camera(const ViewPoint& view) {
-  vtkCamera* camera = renderer_->GetActiveCamera();
-  camera->SetPosition(view.eye.x, view.eye.y, view.eye.z);
-  camera->SetFocalPoint(view.target.x, view.target.y, view.target.z);
-  camera->SetViewUp(view.up.x, view.up.y, view.up.z);
-  camera->SetViewAngle(view.view_angle);
-  show_direction();
-  render();
-}
-
 void SceneView::recolor() {
   if (!snapshot_) {
     return;
@@ -456,11 +356,11 @@ void SceneView::show_direction() {
     return;
   }
   glyph_->show(omega, snapshot_->options.two_way, *loaded_->scene, focus_point_, radius_,
-               vec3(renderer_->GetActiveCamera()->GetPosition()));
+               view_point().eye);
 }
 
 void SceneView::follow_camera() {
-  const Vec3 eye = vec3(renderer_->GetActiveCamera()->GetPosition());
+  const Vec3 eye = view_point().eye;
   feature_edges_->follow_camera(eye);
   selected_->follow_camera(eye);
   if (loaded_ && !(eye_ && *eye_ == eye)) {

@@ -79,6 +79,62 @@ QString total_text(const SolverSnapshot& snapshot) {
            QString::fromStdString(end_text(*total.end, most)));
 }
 
+QString finished_text(const SolverSnapshot& snapshot) {
+  const auto& total = snapshot.total;
+  if (snapshot.materials) {
+    // The solve reached its accuracy with other materials.
+    return ProgressLine::tr("Changed materials: light after %1")
+        .arg(iterations_text(snapshot.statistics.iterations));
+  }
+  if (total && total->end && !total->stages.empty()) {
+    return total_text(snapshot);
+  }
+  if (snapshot.accuracy) {
+    constexpr int longest_name = 20;
+    return accuracy_text(*snapshot.accuracy, longest_name);
+  }
+  return (snapshot.statistics.converged ? ProgressLine::tr("Converged after %1, %2 s")
+                                        : ProgressLine::tr("Finished after %1, %2 s"))
+      .arg(iterations_text(snapshot.progress.iteration),
+           QString::number(snapshot.statistics.seconds_total, 'f', 1));
+}
+
+bool is_within_iteration(const SolveProgress& progress) {
+  return progress.direction > 0 && progress.direction < progress.passes;
+}
+
+// Where a solve is that has not finished.
+QString unfinished_text(const SolverSnapshot& snapshot, bool running) {
+  const SolveProgress& progress = snapshot.progress;
+  if (snapshot.of_file) {
+    return (snapshot.loaded->description ? ProgressLine::tr("Earlier solve: %1 of %2 passes each")
+                                         : ProgressLine::tr("From the file: %1 of %2 passes each"))
+        .arg(iterations_text(snapshot.statistics.iterations),
+             count_text(snapshot.statistics.passes));
+  }
+  const auto& rounds = snapshot.statistics.refinement;
+  const auto& total = snapshot.total;
+  const QString round =
+      !snapshot.refinement.left ? QString()
+      : total ? ProgressLine::tr("Stage %1: ").arg(count_text(std::ssize(total->stages) + 1))
+              : ProgressLine::tr("Round %1: ").arg(count_text(std::ssize(rounds) + 1));
+  if (progress.iteration == 0 && progress.direction == 0 && (running || rounds.empty())) {
+    return running ? round + ProgressLine::tr("Starting")
+                   : ProgressLine::tr("Ready: run, or process one direction");
+  }
+  const QString at =
+      is_within_iteration(progress) || progress.iteration == 0
+          ? ProgressLine::tr("Iteration %1, direction %2 of %3")
+                .arg(count_text(progress.iteration + 1), count_text(progress.direction),
+                     count_text(progress.passes))
+      : running
+          ? ProgressLine::tr("%1 done, the next begins").arg(iterations_text(progress.iteration))
+          : ProgressLine::tr("%1 done").arg(iterations_text(progress.iteration));
+  return !running            ? ProgressLine::tr("Paused: %1").arg(round + at)
+         : snapshot.of_draft ? ProgressLine::tr("Draft shown. %1").arg(at)
+                             : round + at;
+}
+
 // The name of the scene; for a result file, the names of the file and of its scene.
 QString name_of(const LoadedScene& loaded) {
   const auto short_name = [](const std::string& path) {
@@ -172,7 +228,6 @@ void ProgressLine::show_solve() {
   }
   const SolveProgress& progress = snapshot_->progress;
   const bool running = state_ == RunState::running, finished = state_ == RunState::finished;
-  const bool within_iteration = progress.direction > 0 && progress.direction < progress.passes;
   // A solve that is over needs the room for its text.
   bar_->setVisible(!snapshot_->of_file && !finished && has_light(*snapshot_));
   rate_->setVisible(!finished);
@@ -181,58 +236,22 @@ void ProgressLine::show_solve() {
     show_stage_of_lobes(progress);
     return;
   }
+  const bool within = is_within_iteration(progress);
   bar_->setRange(0, std::max(progress.passes, 1));
-  bar_->setValue(!within_iteration && progress.iteration > 0 ? progress.passes
-                                                             : progress.direction);
-
-  const auto& rounds = snapshot_->statistics.refinement;
-  const auto& total = snapshot_->total;
-  const QString round = !snapshot_->refinement.left ? QString()
-                        : total ? tr("Stage %1: ").arg(count_text(std::ssize(total->stages) + 1))
-                                : tr("Round %1: ").arg(count_text(std::ssize(rounds) + 1));
-  const QString at = within_iteration || progress.iteration == 0
-                         ? tr("Iteration %1, direction %2 of %3")
-                               .arg(count_text(progress.iteration + 1),
-                                    count_text(progress.direction), count_text(progress.passes))
-                         : tr("%1 done").arg(iterations_text(progress.iteration));
-  const auto& accuracy = snapshot_->accuracy;
-  phase_->setToolTip(finished && accuracy ? accuracy_tip(*accuracy) : QString());
-  if (!running && !has_light(*snapshot_)) {
-    phase_->setToolTip({});
-    phase_->setText(tr("No light: not solved"));
-  } else if (finished && snapshot_->materials) {
-    // The solve reached its accuracy with other materials.
-    phase_->setToolTip({});
-    phase_->setText(tr("Changed materials: light after %1")
-                        .arg(iterations_text(snapshot_->statistics.iterations)));
-  } else if (finished && total && total->end && !total->stages.empty()) {
-    phase_->setText(total_text(*snapshot_));
-  } else if (finished && accuracy) {
-    constexpr int longest_name = 20;
-    phase_->setText(accuracy_text(*accuracy, longest_name));
-  } else if (finished) {
-    phase_->setText((snapshot_->statistics.converged ? tr("Converged after %1, %2 s")
-                                                     : tr("Finished after %1, %2 s"))
-                        .arg(iterations_text(progress.iteration),
-                             QString::number(snapshot_->statistics.seconds_total, 'f', 1)));
-  } else if (snapshot_->of_file) {
-    phase_->setText((snapshot_->loaded->description ? tr("Earlier solve: %1 of %2 passes each")
-                                                    : tr("From the file: %1 of %2 passes each"))
-                        .arg(iterations_text(snapshot_->statistics.iterations),
-                             count_text(snapshot_->statistics.passes)));
-  } else if (progress.iteration == 0 && progress.direction == 0 && (running || rounds.empty())) {
-    phase_->setText(running ? round + tr("Starting") : tr("Ready: run, or process one direction"));
-  } else {
-    phase_->setText(!running              ? tr("Paused: %1").arg(round + at)
-                    : snapshot_->of_draft ? tr("Draft shown. %1").arg(at)
-                                          : round + at);
-  }
+  bar_->setValue(!within && progress.iteration > 0 ? progress.passes : progress.direction);
+  const bool reached_with_materials = has_light(*snapshot_) && !snapshot_->materials;
+  phase_->setToolTip(finished && snapshot_->accuracy && reached_with_materials
+                         ? accuracy_tip(*snapshot_->accuracy)
+                         : QString());
+  phase_->setText(!running && !has_light(*snapshot_) ? tr("No light: not solved")
+                  : finished                         ? finished_text(*snapshot_)
+                                                     : unfinished_text(*snapshot_, running));
 
   const bool timed = running && progress.passes_per_second > 0;
   rate_->setText(timed ? tr("%1 passes/s").arg(QString::number(progress.passes_per_second, 'f', 1))
                        : QString());
-  time_->setText(timed && within_iteration ? tr("%1 left").arg(duration_text(progress.seconds_left))
-                                           : QString());
+  time_->setText(timed && within ? tr("%1 left").arg(duration_text(progress.seconds_left))
+                                 : QString());
   time_->setToolTip(tr("Time left in this iteration"));
 }
 

@@ -278,7 +278,6 @@ void SettingsPanel::add_limits() {
   stop_at_ = named("stop_at", new QComboBox,
                    tr("Whether the iterations end by their effect or by their number"));
   stop_at_->addItems({tr("Tolerance"), tr("Iterations")});
-  stop_at_->setMinimumWidth(60);
   tolerance_ = named("tolerance", new QLineEdit, setting_tip("tolerance"));
   tolerance_->setValidator(number_validator(tolerance_, 0, 1, 15));
   tolerance_->setMinimumWidth(60);
@@ -289,10 +288,6 @@ void SettingsPanel::add_limits() {
   stop_value_->addWidget(tolerance_);
   stop_value_->addWidget(iterations_);
   stop_value_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
-  auto* stop = new QWidget;
-  auto* stop_row = make_row(stop, {}, 6);
-  stop_row->addWidget(stop_at_, 3);
-  stop_row->addWidget(stop_value_, 2);
   max_patch_area_ = named("max_patch_area", new QLineEdit, setting_tip("max-patch-area"));
   auto* area = new QDoubleValidator(max_patch_area_);
   area->setBottom(0);
@@ -300,7 +295,8 @@ void SettingsPanel::add_limits() {
   max_patch_area_->setValidator(area);
   max_patch_area_->setPlaceholderText(tr("Faces not divided"));
   auto* rows = new SettingRows;
-  rows->add(tr("Stop at"), stop, stop_at_->toolTip());
+  rows->add(tr("Stop at"), stop_at_, stop_at_->toolTip());
+  rows->add(tr("Limit"), stop_value_);
   rows->add(tr("Patch area, m²"), max_patch_area_, max_patch_area_->toolTip());
   add_section(limits_ = new Fold("limits_section", tr("Limits"), rows));
 }

@@ -75,6 +75,16 @@ void refuse_unless(bool used, const CLI::App& command, const std::string& option
   }
 }
 
+void add_figure_options(CLI::App& command, std::optional<std::string>& title, bool& transparent,
+                        const std::string& transparent_help) {
+  command
+      .add_option("--title", title,
+                  "title of .png, .svg and .pdf files (default: with the name of the scene in "
+                  ".svg and .pdf, none in .png)")
+      ->type_name("TEXT");
+  command.add_flag("--transparent", transparent, transparent_help);
+}
+
 void add_direction_option(CLI::App& command, Vec3& direction) {
   add_parsed_option(command, "--direction", "X,Y,Z",
                     "omega, pointing from the receivers to the sources; any length",

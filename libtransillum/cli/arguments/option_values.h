@@ -26,6 +26,10 @@ double parse_positive(const std::string& option, const std::string& text, double
 inline constexpr double printed_pixels_per_inch = 300;
 /// The number before "cm" at the end, greater than 0; none without "cm".
 std::optional<double> parse_centimeters(const std::string& option, const std::string& text);
+/// --title and --transparent of pictures and maps.
+/// @param transparent_help  says what is not drawn
+void add_figure_options(CLI::App& command, std::optional<std::string>& title, bool& transparent,
+                        const std::string& transparent_help);
 /// A point, three numbers.
 Vec3 parse_point(const std::string& option, const std::string& text);
 /// EngineOptions::resolution

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/memory_limit.h"
 #include "cli/arguments/option_values.h"
 #include "cli/arguments/scene_options.h"
 #include "cli/commands/commands.h"
@@ -45,7 +47,8 @@ struct MapCall {
     if (centimeters && is_map_picture(file)) {
       const bool has_pixels = is_screen_picture(file);
       const double pixels_per_inch = has_pixels ? printed_pixels_per_inch : PictureFigure::screen;
-      options.size = static_cast<int>(std::min(*centimeters / 2.54 * pixels_per_inch + 0.5, 1e6));
+      options.size = static_cast<int>(std::lround(*centimeters / 2.54 * pixels_per_inch));
+      options.pixels_per_inch = has_pixels ? pixels_per_inch : 0;
     }
     return options;
   }
@@ -123,13 +126,38 @@ void add_pixel_options(CLI::App& command, MapCall& call) {
 }
 
 /// The title and the legend of a figure take 470 pixels, or 600 with the legend of pixels.
-void check_size(const MapCall& call, const std::string& file) {
-  const double least = call.is_exact() ? 12.5 : 16;
-  if (call.centimeters && *call.centimeters < least && is_map_picture(file) &&
-      !is_screen_picture(file)) {
-    throw InputError(
-        fmt::format("--size: {:g}cm is too small for {}: its title and legend take {:g}cm",
-                    *call.centimeters, file, least));
+void check_centimeters(const MapCall& call, const std::string& file) {
+  if (!call.centimeters || !is_map_picture(file)) {
+    return;
+  }
+  const bool is_figure = !is_screen_picture(file);
+  const double pixel = 2.54 / (is_figure ? PictureFigure::screen : printed_pixels_per_inch);
+  const double least = !is_figure        ? pixel * MapPictureOptions::smallest_size
+                       : call.is_exact() ? 12.5
+                                         : 16;
+  const double most = pixel * MapPictureOptions::largest_size;
+  if (*call.centimeters < least) {
+    throw InputError(fmt::format("--size: {:g}cm is too small for {}: {} {:.3g}cm",
+                                 *call.centimeters, file,
+                                 is_figure ? "its title and legend take" : "the least is", least));
+  }
+  if (*call.centimeters > most) {
+    throw InputError(fmt::format("--size: {:g}cm is too large for {}: the most is {:.3g}cm",
+                                 *call.centimeters, file, most));
+  }
+}
+
+/// Memory that the pixels of a .png file may take.
+void check_pixel_memory(const MapCall& call, const std::string& file) {
+  constexpr double bytes_of_pixel = 40;
+  const double size = call.picture_of(file).size;
+  const double taken = bytes_of_pixel * size * size;
+  const auto free = static_cast<double>(free_memory());
+  if (is_screen_picture(file) && taken > free) {
+    throw InputError(fmt::format(
+        "--size: {} takes up to {:.3g} GB of memory with {:.0f} pixels along each side, but "
+        "{:.3g} GB are free",
+        file, 1e-9 * taken, size, 1e-9 * free));
   }
 }
 
@@ -142,10 +170,13 @@ void check_options(const MapCall& call) {
   refuse_unless(call.is_exact() || call.difference, *call.command, "--memory",
                 "used only with engine local, or with --difference");
   const bool pictures = std::any_of(call.out.begin(), call.out.end(), is_map_picture);
-  refuse_unless(pictures, *call.command, "--size", "used only with .svg, .pdf and .png files");
+  for (const char* option : {"--size", "--title", "--transparent"}) {
+    refuse_unless(pictures, *call.command, option, "used only with .svg, .pdf and .png files");
+  }
   for (const std::string& file : call.out) {
-    check_size(call, file);
+    check_centimeters(call, file);
     call.picture_of(file).validate();
+    check_pixel_memory(call, file);
   }
 }
 
@@ -215,6 +246,8 @@ Command add_map_command(CLI::App& program) {
         call->picture.size = static_cast<int>(parse_whole_number(
             "--size", text, MapPictureOptions::smallest_size, MapPictureOptions::largest_size));
       });
+  add_figure_options(command, call->picture.title, call->picture.transparent,
+                     "no paper and no dark background behind the map");
   add_scene_options(command, call->scene);
   command
       .add_option("-o,--out", call->out,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -44,14 +45,23 @@ void parse_size(const std::string& text, PictureRequest& picture) {
   }
   const bool printed = text.ends_with("cm");
   const std::string unit = printed ? "cm" : "";
+  constexpr double pixel = 2.54 / printed_pixels_per_inch;
   const auto pixels = [&](const std::string& number) {
     const std::optional<double> length = parse_centimeters("--size", number);
-    const std::string count =
-        length ? fmt::format("{:.0f}", *length / 2.54 * printed_pixels_per_inch) : number;
-    return static_cast<int>(parse_whole_number("--size", count, 1, PictureOptions::largest_size));
+    if (!length) {
+      return static_cast<int>(
+          parse_whole_number("--size", number, 1, PictureOptions::largest_size));
+    }
+    const double count = std::round(*length / pixel);
+    if (count < 1 || count > PictureOptions::largest_size) {
+      throw InputError(fmt::format("--size: \"{}\" must have sides of {:.2g} to {:.4g} cm", text,
+                                   pixel, pixel * PictureOptions::largest_size));
+    }
+    return static_cast<int>(count);
   };
   picture.options.width = pixels(text.substr(0, cross) + unit);
   picture.options.height = pixels(text.substr(cross + 1));
+  picture.size_text = text;
   picture.pixels_per_inch = printed ? printed_pixels_per_inch : PictureFigure::screen;
 }
 
@@ -130,13 +140,15 @@ void check_options(const PictureCall& call) {
     return is_screen_picture(file) || is_figure_file(file);
   };
   const bool has_colors = std::any_of(files.begin(), files.end(), shows_colors);
-  for (const char* option : {"--exposure", "--tone", "--false-color"}) {
+  for (const char* option : {"--exposure", "--tone", "--false-color", "--title", "--transparent"}) {
     refuse_unless(has_colors, command, option, "used only with a .png, .svg or .pdf file");
   }
   refuse_unless(!call.picture.false_colors, command, "--tone", "not used with --false-color");
   refuse_unless(call.picture.false_colors, command, "--lux", "used only with --false-color");
-  refuse_unless(std::all_of(files.begin(), files.end(), shows_colors), command, "--lux",
-                "not used with .exr and .pfm files, which have radiance");
+  for (const char* option : {"--lux", "--transparent"}) {
+    refuse_unless(std::all_of(files.begin(), files.end(), shows_colors), command, option,
+                  "not used with .exr and .pfm files, which have radiance");
+  }
 }
 
 /// Refuses options of a solve, which a result has behind it.
@@ -268,7 +280,8 @@ void add_picture_options(CLI::App& command, const std::shared_ptr<PictureCall>& 
       [&options](const std::string& text) {
         options.gather =
             static_cast<int>(parse_whole_number("--gather", text, 0, PictureOptions::most_rays));
-      });
+      })
+      ->group("Accuracy");
   add_parsed_option(command, "--exposure", "X|auto",
                     "B times X is the linear color on a screen, 1 is white; 1/X is the upper "
                     "end of false colors (default auto: 98 % of the area that does not emit is "
@@ -289,10 +302,12 @@ void add_picture_options(CLI::App& command, const std::shared_ptr<PictureCall>& 
   command.add_flag(
       "--lux", picture.lux,
       "--false-color shows illuminance in lux, 683 lm/W of irradiance H, instead of B");
+  add_figure_options(command, picture.title, options.transparent,
+                     "nothing is drawn where no surface is: neither sky nor paper");
   command
       .add_option("-o,--out", picture.files,
-                  "picture: .png for a screen; .svg, .pdf, a figure with the scene's name as its "
-                  "title and the scale as vectors; or .exr, .pfm with radiance in W/(m2 sr); "
+                  "picture: .png for a screen; .svg, .pdf, a figure with the title and the scale "
+                  "as vectors; or .exr, .pfm with radiance in W/(m2 sr); "
                   "may be given several times")
       ->type_name("FILE")
       ->expected(1)

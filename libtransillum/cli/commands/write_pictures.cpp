@@ -24,8 +24,36 @@ namespace {
 
 /// Memory of a picture while it is written, bytes.
 double memory_of(const PictureOptions& options) {
-  constexpr double bytes_of_pixel = sizeof(Rgb) + 3 * sizeof(float);
+  // Radiance, coverage, the floats of a file, and colors, image and page of a figure.
+  constexpr double bytes_of_pixel = sizeof(Rgb) + 4 * sizeof(float) + 3 * 4;
   return bytes_of_pixel * options.width * options.height;
+}
+
+/// @param scene_name  the title of .svg and .pdf files without another
+PictureFigure figure_of(const PictureRequest& request, const std::string& file, double exposure,
+                        const std::string& scene_name) {
+  PictureFigure figure{.title = request.title.value_or(is_figure_file(file) ? scene_name : ""),
+                       .look = {.exposure = exposure, .tone = request.tone},
+                       .pixels_per_inch = request.pixels_per_inch};
+  if (request.false_colors) {
+    figure.false_colors = {.highest = 1 / exposure, .lux = request.lux};
+  }
+  return figure;
+}
+
+/// Checks that a .png file has room for the title and the scale.
+void check_page(const PictureRequest& request, const std::string& file) {
+  // The exposure may not be known yet; the labels of this one are wide.
+  constexpr double wide = 1 / 1.2e6;
+  const auto [width, height] =
+      figure_pixels(request.options.width, request.options.height,
+                    figure_of(request, file, request.exposure.value_or(wide), {}));
+  if (std::max(width, height) > PictureOptions::largest_size) {
+    throw InputError(fmt::format(
+        "--size: \"{}\" is too large for {}: with its title and its scale it has {} x {} pixels, "
+        "at most {} along each side",
+        request.size_text, file, width, height, PictureOptions::largest_size));
+  }
 }
 
 /// The luminance of H that the picture does not exceed in 98 % of the pixels that show a surface.
@@ -42,19 +70,11 @@ double bright_irradiance(const Picture& picture) {
 }
 
 void write(const PictureRequest& request, const std::string& file, const Picture& picture,
-           double exposure, const std::string& title) {
-  const PictureLook look{.exposure = exposure, .tone = request.tone};
-  const FalseColors colors{.highest = 1 / exposure, .lux = request.lux};
-  if (is_figure_file(file)) {
-    PictureFigure figure{.title = title, .look = look, .pixels_per_inch = request.pixels_per_inch};
-    if (request.false_colors) {
-      figure.false_colors = colors;
-    }
-    write_figure(file, picture, figure);
-  } else if (request.false_colors && is_screen_picture(file)) {
-    write_false_colors(file, picture, colors);
+           double exposure, const std::string& scene_name) {
+  if (is_figure_file(file) || is_screen_picture(file)) {
+    write_figure(file, picture, figure_of(request, file, exposure, scene_name));
   } else {
-    write_picture(file, picture, look);
+    write_picture(file, picture);
   }
 }
 
@@ -69,10 +89,16 @@ void check_picture_request(const PictureRequest& request,
   options.validate();
   CameraRays(*scene, request.camera, options.width, options.height);
   check_eye(scene, request.camera);
+  for (const std::string& file : request.files) {
+    if (is_screen_picture(file)) {
+      check_page(request, file);
+    }
+  }
   const auto free = static_cast<double>(free_memory());
   if (memory_of(options) > free) {
     throw InputError(fmt::format(
-        "--size: a picture of {} x {} pixels takes {:.3g} GB of memory, but {:.3g} GB are free",
+        "{}a picture of {} x {} pixels takes {:.3g} GB of memory, but {:.3g} GB are free",
+        request.size_text.empty() ? "" : fmt::format("--size: \"{}\": ", request.size_text),
         options.width, options.height, 1e-9 * memory_of(options), 1e-9 * free));
   }
 }
@@ -86,7 +112,7 @@ void write_pictures(const PictureRequest& request, std::shared_ptr<const Solutio
   PictureOptions options = request.options;
   options.irradiance = request.lux;
   const double of_result = automatic_exposure(*solution);
-  const std::string title = solution->scene->name();
+  const std::string scene_name = solution->scene->name();
   Picture picture;
   display.begin("making the picture");
   try {
@@ -103,7 +129,7 @@ void write_pictures(const PictureRequest& request, std::shared_ptr<const Solutio
   display.begin("writing the picture");
   std::vector<std::function<void()>> writers;
   for (const std::string& file : request.files) {
-    writers.emplace_back([&] { write(request, file, picture, exposure, title); });
+    writers.emplace_back([&] { write(request, file, picture, exposure, scene_name); });
   }
   write_all(writers);
   display.clear();

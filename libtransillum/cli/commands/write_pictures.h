@@ -20,10 +20,13 @@ struct PictureRequest {
   PictureOptions options = {};
   std::optional<double> exposure = std::nullopt;  ///< if unset, automatic_exposure()
   ToneCurve tone = ToneCurve::linear;
-  double pixels_per_inch = PictureFigure::screen;  ///< .svg and .pdf files have so many
-  bool false_colors = false;                       ///< .png, .svg and .pdf files have them
-  bool lux = false;                                ///< illuminance instead of B
-  bool quiet = false;                              ///< no line on standard error
+  std::string size_text = {};                      ///< the size given, for messages; may be empty
+  double pixels_per_inch = PictureFigure::screen;  ///< .png, .svg and .pdf files have so many
+  /// Title of .png, .svg and .pdf files; unset: the scene's name, but none in .png files
+  std::optional<std::string> title = std::nullopt;
+  bool false_colors = false;  ///< .png, .svg and .pdf files have them
+  bool lux = false;           ///< illuminance instead of B
+  bool quiet = false;         ///< no line on standard error
 };
 
 /// Checks camera, size and memory before a solve.

@@ -91,6 +91,8 @@ class GlossyLight {
   /// Phi_i: flux density that arrives along direction(i, pass), W/(m² sr), one per pass; it
   /// contains the cosine, but no light of a first shot or sun. Empty for a patch without a lobe.
   std::span<const Rgb> arriving(PatchId i) const;
+  /// Irradiance of patch i by the sun, which arriving() omits, W/m²; 0 for a patch without a lobe.
+  Rgb sun_irradiance(PatchId i) const;
   /// Radiance that patch i sends along direction(i, pass), W/(m² sr), after the last iteration, in
   /// the pass's replica.
   Rgb leaving(PatchId i, int pass) const;

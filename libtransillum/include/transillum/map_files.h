@@ -28,6 +28,10 @@ struct MapPictureOptions {
   /// sRGB of each patch's front side; empty: by its exitance or reflectance.
   std::vector<std::array<std::uint8_t, 3>> patch_colors{};
   std::vector<MapLabel> labels{};  ///< drawn over the map
+  /// Title, any bytes; empty for none. Unset: names the scene in .svg and .pdf, none in .png.
+  std::optional<std::string> title{};
+  bool transparent = false;    ///< neither paper nor the map's dark background is drawn
+  double pixels_per_inch = 0;  ///< resolution that .png records; 0 means unknown
 
   /// @throws InputError naming the size and its range.
   void validate() const;

@@ -42,7 +42,7 @@ struct Camera {
 /// Options of a picture.
 struct PictureOptions {
   /// Largest width and height, pixels.
-  static constexpr int largest_size = 32768;
+  static constexpr int largest_size = 32767;
   /// Largest number of samples a pixel.
   static constexpr int most_samples = 4096;
   /// Largest number of rays a sample.
@@ -57,6 +57,8 @@ struct PictureOptions {
   /// The picture shows the irradiance H of surfaces: a pixel is H / pi, the radiance that a white
   /// diffuse surface would reflect; 0 where nothing is.
   bool irradiance = false;
+  /// The picture has its coverage, and the sky is not shown behind surfaces.
+  bool transparent = false;
   int threads = 0;  ///< 0 uses all cores; the result does not depend on it
 
   /// @throws InputError naming the value and its range.
@@ -74,6 +76,9 @@ struct Picture {
   /// number that can be treated exactly, and those without a ten-thousandth of all power; of more
   /// than 64 faces also the dim, whose exitance is at most four times the mean irradiance.
   int gathered_lamps = 0;
+  /// Fraction of the samples of each pixel that show a surface, in the order of `radiance`, to
+  /// which the others contribute 0; empty without PictureOptions::transparent.
+  std::vector<float> coverage{};
 };
 
 /// How precisely reflected light is interpolated. More precise queries use what others have
@@ -124,6 +129,8 @@ class SurfaceLight {
   /// @throws Canceled
   Rgb irradiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt = 0,
                  const Cancellation& cancellation = {}) const;
+  /// Whether a ray meets the lit side of a surface, whose light radiance() gives.
+  bool meets_surface(const Vec3& origin, const Vec3& direction) const;
   /// Picture::gathered_lamps
   int gathered_lamps() const;
 

@@ -50,17 +50,28 @@ Picture make_picture(std::shared_ptr<const Solution> solution, const Camera& cam
   Picture picture{options.width, options.height, {}, light.gathered_lamps()};
   picture.radiance.resize(static_cast<std::size_t>(options.width) *
                           static_cast<std::size_t>(options.height));
+  picture.coverage.resize(options.transparent ? picture.radiance.size() : 0);
+  const auto light_of = [&](const SampleRay& sample) {
+    const auto& [origin, direction] = sample.ray;
+    return options.irradiance ? 1 / std::numbers::pi *
+                                    light.irradiance(origin, direction, sample.salt, cancellation)
+                              : light.radiance(origin, direction, sample.salt, cancellation);
+  };
   const auto visit = [&](int column, int row) {
-    at(picture.radiance, static_cast<std::size_t>(row) * static_cast<std::size_t>(options.width) +
-                             static_cast<std::size_t>(column)) =
-        options.irradiance
-            ? mean_of_samples(rays, column, row, options.samples,
-                              [&](const SampleRay& sample) {
-                                return 1 / std::numbers::pi *
-                                       light.irradiance(sample.ray.origin, sample.ray.direction,
-                                                        sample.salt, cancellation);
-                              })
-            : pixel_radiance(light, rays, column, row, options.samples, cancellation);
+    const auto pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(options.width) +
+                       static_cast<std::size_t>(column);
+    int met = 0;
+    at(picture.radiance,
+       pixel) = mean_of_samples(rays, column, row, options.samples, [&](const SampleRay& sample) {
+      if (options.transparent && !light.meets_surface(sample.ray.origin, sample.ray.direction)) {
+        return Rgb();
+      }
+      ++met;
+      return light_of(sample);
+    });
+    if (options.transparent) {
+      at(picture.coverage, pixel) = static_cast<float>(met) / static_cast<float>(options.samples);
+    }
   };
   visit_pixels({options.width, options.height}, options.threads, cancellation, visit, progress);
   return picture;

@@ -51,8 +51,7 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
         gathered(*solution, embree, hits, gather > 0 ? gather : interpolated_rays(scene)),
         interpolated(scene, points, gathered, lamps) {
     if (solution->glossy) {
-      lobes.emplace(scene, gathered, lamps, std::max(gather, least_lobe_rays),
-                    cancellation);
+      lobes.emplace(scene, gathered, lamps, std::max(gather, least_lobe_rays), cancellation);
     }
   }
 
@@ -126,6 +125,10 @@ Rgb SurfaceLight::irradiance(const Vec3& origin, const Vec3& direction, std::uin
                              const Cancellation& cancellation) const {
   const auto hit = impl_->picker->first_lit_hit(origin, direction);
   return hit ? impl_->irradiance(hit->patch, hit->point, {cancellation, salt}) : Rgb();
+}
+
+bool SurfaceLight::meets_surface(const Vec3& origin, const Vec3& direction) const {
+  return impl_->picker->first_lit_hit(origin, normalized(direction)).has_value();
 }
 
 int SurfaceLight::gathered_lamps() const { return impl_->lamps.gathered_count(); }

@@ -27,7 +27,7 @@ void OpenScene::open(const std::string& spec, const RunOptions& options, Goal go
   emit opening();
   requested_spec_ = spec;
   requested_input_ = options.input;
-  requested_edited_ = spec == spec_ ? edited_ : nullptr;
+  requested_edited_ = spec == given_.first ? given_.second : spec == spec_ ? edited_ : nullptr;
   runner_.open({requested_spec_, options, goal, first_look, nullptr, requested_edited_});
 }
 
@@ -105,6 +105,7 @@ void OpenScene::show_again() {
 
 void OpenScene::take_scene(std::shared_ptr<const LoadedScene> loaded) {
   opening_ = false;
+  given_ = {};
   loaded_ = std::move(loaded);
   newest_ = shown_ = nullptr;
   spec_ = requested_spec_;

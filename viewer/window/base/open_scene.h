@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/requests/relighting.h"
@@ -53,6 +54,11 @@ class OpenScene : public QObject {
   /// @param runs    whether to solve to the end, even if `before` is not finished
   void solve_faces(const std::shared_ptr<const LoadedScene>& loaded, const Faces& faces,
                    const SolverSnapshot& before, bool runs);
+  /// The next open() of `spec` has these faces, which no file has, instead of the faces that it
+  /// names.
+  void give_faces(const std::string& spec, std::shared_ptr<const SceneDescription> faces) {
+    given_ = {spec, std::move(faces)};
+  }
   /// While held, snapshots of the solver are kept and not shown.
   void hold(bool held);
   /// Whether faces were edited, and no file has them with the present materials: spec() then names
@@ -117,7 +123,8 @@ class OpenScene : public QObject {
   SolveRunner& runner_;
   Relighting& relighting_;
   std::string requested_spec_, spec_;
-  std::shared_ptr<const SceneDescription> requested_edited_, edited_;  ///< Faces::edited
+  std::shared_ptr<const SceneDescription> requested_edited_, edited_;      ///< Faces::edited
+  std::pair<std::string, std::shared_ptr<const SceneDescription>> given_;  ///< give_faces()
   SceneInput requested_input_, input_;
   SceneOptions options_;
   bool opening_ = false;

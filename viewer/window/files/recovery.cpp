@@ -1,7 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Each running program has a file of its session, NAME.json, a file of its solve, NAME.tck, and a
-// lock file, NAME.lock, which tells other programs whether it still runs.
+// lock file, NAME.lock, which tells other programs whether it still runs. Edited faces are in
+// NAME.obj and NAME.mtl.
 #include "window/files/recovery.h"
 
 #include <QDateTime>
@@ -12,12 +13,15 @@
 #include <QPushButton>
 #include <QStandardPaths>
 #include <QUuid>
+#include <filesystem>
+#include <utility>
 
 #include "base/json_text.h"
 #include "lessons/session_file.h"
 #include "scene/scene_page.h"
 #include "support/failure_text.h"
 #include "transillum/files.h"
+#include "transillum/scene.h"
 #include "widgets/banner.h"
 #include "window/base/notifier.h"
 #include "window/base/open_scene.h"
@@ -34,9 +38,16 @@ QString made(const QString& folder) {
   return folder;
 }
 
-/// The file of the solve of a session.
-QString checkpoint_of(const QString& session) {
-  return session.chopped(QStringLiteral("json").size()) + QStringLiteral("tck");
+/// A file beside the file of a session.
+QString beside(const QString& session, const char* ending) {
+  return session.chopped(QStringLiteral("json").size()) + ending;
+}
+QString checkpoint_of(const QString& session) { return beside(session, "tck"); }
+QString faces_of(const QString& session) { return beside(session, "obj"); }
+
+void remove_faces(const QString& session) {
+  QFile::remove(faces_of(session));
+  QFile::remove(beside(session, "mtl"));
 }
 
 }  // namespace
@@ -56,7 +67,9 @@ Recovery::Recovery(const WindowFrame& frame, WindowSession& session, const QStri
   connect(&every_, &QTimer::timeout, this, &Recovery::keep);
   connect(&soon_, &QTimer::timeout, this, &Recovery::keep);
   connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, &Recovery::on_snapshot);
-  connect(&frame_.state.scene, &OpenScene::scene_shown, this, [this] { kept_iteration_ = -1; });
+  for (const auto signal : {&OpenScene::scene_loaded, &OpenScene::patches_changed}) {
+    connect(&frame_.state.scene, signal, this, [this] { kept_iteration_ = -1; });
+  }
   every_.start();
   frame_.state.runner.save_to(checkpoint_of(session_file(name_)).toStdString());
   Banner* bar = frame_.page.recovery_bar();
@@ -74,6 +87,7 @@ Recovery::Recovery(const WindowFrame& frame, WindowSession& session, const QStri
 
 Recovery::~Recovery() {
   QFile::remove(session_file(name_));
+  remove_faces(session_file(name_));
   frame_.state.runner.save_to({});
 }
 
@@ -92,7 +106,8 @@ QString Recovery::taken_over(const QString& checkpoint) const {
 }
 
 void Recovery::remove_orphans() const {
-  for (const QFileInfo& found : QDir(folder_).entryInfoList({"*.tck"}, QDir::Files)) {
+  for (const QFileInfo& found :
+       QDir(folder_).entryInfoList({"*.tck", "*.obj", "*.mtl"}, QDir::Files)) {
     const QString name = found.completeBaseName().remove(QStringLiteral("-taken"));
     QLockFile lock(folder_ + '/' + name + ".lock");
     lock.setStaleLockTime(0);
@@ -110,11 +125,23 @@ void Recovery::on_snapshot() {
   }
 }
 
+void Recovery::keep_faces() {
+  const OpenScene& scene = frame_.state.scene;
+  const auto faces = scene.has_unsaved_faces() ? scene.faces().edited : nullptr;
+  if (faces && faces != kept_faces_) {
+    write_obj(faces_of(session_file(name_)).toStdString(), *faces);
+  } else if (!faces && kept_faces_) {
+    remove_faces(session_file(name_));
+  }
+  kept_faces_ = faces;
+}
+
 void Recovery::keep() {
   if (!frame_.state.scene.loaded()) {
     return;
   }
   try {
+    keep_faces();
     const std::string text = to_text(session_.current(), folder_.toStdString());
     write_file_whole(session_file(name_).toStdString(), [&](std::ostream& out) { out << text; });
   } catch (const std::exception&) {
@@ -148,7 +175,15 @@ void Recovery::restore() {
   frame_.state.runner.resume_from(taken_over(checkpoint_of(offered_)).toStdString());
   try {
     const std::string name = offered_.toStdString();
-    session_.restore(session_from_text(read_json_file(name), name, folder_.toStdString()));
+    const Session session = session_from_text(read_json_file(name), name, folder_.toStdString());
+    if (const QString file = faces_of(offered_); QFile::exists(file)) {
+      SceneDescription faces = describe_scene(file.toStdString());
+      faces.name = std::filesystem::path(session.state.scene).filename().string();
+      faces.files.clear();
+      frame_.state.scene.give_faces(session.state.scene,
+                                    std::make_shared<const SceneDescription>(std::move(faces)));
+    }
+    session_.restore(session);
   } catch (const std::exception& error) {
     frame_.notifier.show_failure(failure_text(error));
     return;
@@ -159,6 +194,7 @@ void Recovery::restore() {
 void Recovery::discard() {
   frame_.page.recovery_bar()->dismiss();
   QFile::remove(checkpoint_of(offered_));
+  remove_faces(offered_);
   QFile::remove(offered_);
   offered_.clear();
 }

@@ -15,7 +15,8 @@ class WindowSession;
 /// Keeps the session of the window in a file while the program runs: every minute, and soon after
 /// each iteration. The solve is in a checkpoint beside it (SolveRunner::save_to()). If the program
 /// is killed, the next one offers to continue from there. A solve without a checkpoint is repeated;
-/// in both cases the result has the bits of an uninterrupted solve.
+/// in both cases the result has the bits of an uninterrupted solve. Edited faces that no file of
+/// the user has are in an OBJ file beside the session.
 ///
 /// Threads: the main thread only. Several programs may use one folder.
 class Recovery : public QObject {
@@ -38,7 +39,9 @@ class Recovery : public QObject {
   QString session_file(const QString& name) const;
   /// Takes over a checkpoint of another program. @returns its new path, empty if there is none
   QString taken_over(const QString& checkpoint) const;
-  /// Removes solves whose sessions are gone.
+  /// Writes the edited faces that no file has; removes the file where there are none.
+  void keep_faces();
+  /// Removes solves and faces whose sessions are gone.
   void remove_orphans() const;
   void on_snapshot();
   void restore();
@@ -49,6 +52,7 @@ class Recovery : public QObject {
   QString folder_, name_;
   QLockFile lock_;   ///< held while the program runs
   QString offered_;  ///< file of the session that is offered; may be empty
+  std::shared_ptr<const SceneDescription> kept_faces_;  ///< in the file; null without one
   QTimer every_, soon_;
   int kept_iteration_ = -1;
 };

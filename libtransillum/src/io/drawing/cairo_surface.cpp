@@ -20,8 +20,10 @@ cairo_status_t append_to_stream(void* out, const unsigned char* data, unsigned l
 
 }  // namespace
 
-CairoSurface make_surface(int width, int height) {
-  return {cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), cairo_surface_destroy};
+CairoSurface make_surface(int width, int height, bool transparent) {
+  return {cairo_image_surface_create(transparent ? CAIRO_FORMAT_ARGB32 : CAIRO_FORMAT_RGB24, width,
+                                     height),
+          cairo_surface_destroy};
 }
 
 CairoContext make_measuring_context() {

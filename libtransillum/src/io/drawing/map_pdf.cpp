@@ -18,7 +18,7 @@
 namespace transillum {
 namespace {
 
-constexpr ChartColor title_ink{0x1b, 0x21, 0x2a}, text_ink{0x5a, 0x64, 0x72};
+constexpr ChartColor text_ink{0x5a, 0x64, 0x72};
 constexpr ChartColor note_ink{0xa4, 0xad, 0xb8}, paper{255, 255, 255};
 constexpr double edge_opacity = 0.6;
 
@@ -35,10 +35,12 @@ class MapPage {
         figure_(figure) {}
 
   void draw() {
-    canvas_.fill({0, 0, figure_.width, figure_.height}, paper);
+    if (!options_.transparent) {
+      canvas_.fill({0, 0, figure_.width, figure_.height}, paper);
+    }
     const double left = MapFigure::padding;
     text(figure_.short_title, left, MapFigure::title_base,
-         {MapFigure::title_size, title_ink, true});
+         {MapFigure::title_size, map_title_ink, true});
     text(figure_.direction, left, MapFigure::direction_base);
     text(figure_.content, left, MapFigure::content_base);
     cairo_save(cairo_);
@@ -93,9 +95,11 @@ class MapPage {
 
   void draw_map() {
     const MapLayout& layout = figure_.layout;
-    add_box(figure_.left, MapFigure::header, layout.width, layout.height, 4);
-    set(map_colors::ground);
-    cairo_fill(cairo_);
+    if (!options_.transparent) {
+      add_box(figure_.left, MapFigure::header, layout.width, layout.height, 4);
+      set(map_colors::ground);
+      cairo_fill(cairo_);
+    }
     fill(map_.window, map_colors::nothing);
     draw_patches();
     for (const VisibilityMap::Polygon& polygon : map_.pixels.differences) {
@@ -146,7 +150,7 @@ class MapPage {
   }
 
   void draw_line(std::initializer_list<ChartPoint> points) {
-    canvas_.draw(points, {title_ink, 1.5});
+    canvas_.draw(points, {map_title_ink, 1.5});
   }
   void draw_scale_bar(const MapFigure::ScaleBar& bar) {
     draw_line({{bar.left, bar.y - 4}, {bar.left, bar.y + 4}});

@@ -3,7 +3,6 @@
 // Maps as PNG: an anti-aliased rasterizer for the convex polygons and lines of a map. Cairo draws
 // the labels over it and encodes it.
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -16,9 +15,13 @@
 #include <vector>
 
 #include "io/drawing/cairo_surface.h"
+#include "io/drawing/chart_canvas.h"
 #include "io/drawing/map_label.h"
 #include "io/maps/map_drawing.h"
+#include "io/maps/map_figure.h"
 #include "io/maps/map_writers.h"
+#include "io/png_text.h"
+#include "io/text.h"
 
 namespace transillum {
 namespace {
@@ -29,8 +32,11 @@ namespace {
 /// does not show between two neighbors.
 class Canvas {
  public:
-  Canvas(int width, int height)
-      : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * height) {}
+  Canvas(int width, int height, bool transparent)
+      : width_(width),
+        height_(height),
+        transparent_(transparent),
+        pixels_(static_cast<std::size_t>(width) * height) {}
 
   void fill(std::span<const Vec2> outline, const Color8& color) {
     cover(outline, [&](std::size_t pixel, float fraction) {
@@ -73,7 +79,7 @@ class Canvas {
   }
 
   CairoSurface picture() const {
-    CairoSurface surface = make_surface(width_, height_);
+    CairoSurface surface = make_surface(width_, height_, transparent_);
     check_drawn(cairo_surface_status(surface.get()));
     unsigned char* bytes = cairo_image_surface_get_data(surface.get());
     const std::ptrdiff_t stride = cairo_image_surface_get_stride(surface.get());
@@ -148,47 +154,46 @@ class Canvas {
     }
   }
 
-  static std::array<float, 3> finished(const Pixel& pixel) {
+  /// Alpha, and colors times alpha.
+  std::array<float, 4> finished(const Pixel& pixel) const {
     constexpr float line_opacity = 0.6F;
     const float ground = std::max(1 - pixel.covered, 0.0F);
     const float line = line_opacity * std::min(pixel.line, 1.0F);
     const float window = std::min(pixel.window, 1.0F);
     const float difference =
         static_cast<float>(map_colors::difference_opacity) * std::min(pixel.difference, 1.0F);
-    const auto mixed = [&](float Pixel::*sum, std::uint8_t Color8::*channel) {
-      const auto of = [&](const Color8& color) { return static_cast<float>(color.*channel); };
-      const float under = (1 - window) * of(map_colors::ground) + window * of(map_colors::nothing);
-      const float drawn = pixel.*sum + ground * under;
-      const float filled = drawn + difference * (of(map_colors::difference) - drawn);
-      return filled + line * (of(map_colors::edge) - filled);
+    const auto mixed = [&](float drawn_sum, auto value_of) {
+      const float below = transparent_ ? 0 : value_of(map_colors::ground);
+      const float under = (1 - window) * below + window * value_of(map_colors::nothing);
+      const float drawn = drawn_sum + ground * under;
+      const float filled = drawn + difference * (value_of(map_colors::difference) - drawn);
+      return filled + line * (value_of(map_colors::edge) - filled);
     };
-    return {mixed(&Pixel::r, &Color8::r), mixed(&Pixel::g, &Color8::g),
-            mixed(&Pixel::b, &Color8::b)};
+    const float alpha = transparent_ ? mixed(255 * std::min(pixel.covered, 1.0F),
+                                             [](const Color8&) { return 255.0F; })
+                                     : 255.0F;
+    const auto channel = [&](float Pixel::*sum, std::uint8_t Color8::*part) {
+      const auto value_of = [&](const Color8& color) { return static_cast<float>(color.*part); };
+      return std::min(mixed(pixel.*sum, value_of), alpha);
+    };
+    return {alpha, channel(&Pixel::r, &Color8::r), channel(&Pixel::g, &Color8::g),
+            channel(&Pixel::b, &Color8::b)};
   }
 
   int width_, height_;
+  bool transparent_;
   std::vector<Pixel> pixels_;
 };
 
 /// A chunk of text of a PNG file.
 std::string text_chunk(const std::string& key, const std::string& text) {
-  const std::string body = "tEXt" + key + '\0' + text;
-  const auto big_endian = [](std::size_t number) {
-    std::string bytes;
-    for (const int shift : {24, 16, 8, 0}) {
-      bytes += static_cast<char>(number >> shift & 0xff);
-    }
-    return bytes;
-  };
-  const uLong crc = crc32_z(0, reinterpret_cast<const Bytef*>(body.data()), body.size());
-  return big_endian(body.size() - 4) + body + big_endian(crc);
+  return png_chunk("tEXt", key + '\0' + text);
 }
 
 /// Title and description as chunks of text.
-std::string map_description(const Scene& scene, const VisibilityMap& map, double scale) {
+std::string map_description(const std::string& title, const VisibilityMap& map, double scale) {
   const Vec3& omega = map.frame.omega;
-  return text_chunk("Software", "transillum " TRANSILLUM_VERSION) +
-         text_chunk("Title", "Visibility map of " + scene.name()) +
+  return text_chunk("Software", "transillum " TRANSILLUM_VERSION) + text_chunk("Title", title) +
          text_chunk(
              "Description",
              fmt::format("direction omega = {}, {}, {}; view along omega{}; {} pixels per meter{}",
@@ -201,18 +206,14 @@ std::string map_description(const Scene& scene, const VisibilityMap& map, double
                              : std::string()));
 }
 
-}  // namespace
-
-void write_map_png(std::ostream& out, const Scene& scene, const VisibilityMap& map,
-                   const MapPictureOptions& options) {
-  const MapLayout layout = fit_map(map, options.size, options.size);
-  Canvas canvas(static_cast<int>(std::lround(layout.width)),
-                static_cast<int>(std::lround(layout.height)));
+/// Draws polygons and lines.
+void draw_map(Canvas& canvas, const Scene& scene, const VisibilityMap& map,
+              const MapPictureOptions& options, const MapTransform& transform) {
   std::vector<Vec2> outline;
   const auto projected = [&](const VisibilityMap::Polygon& polygon) -> std::span<const Vec2> {
     outline.clear();
     for (const Vec2& p : map.outline(polygon)) {
-      outline.push_back(layout.transform.to_pixels(p));
+      outline.push_back(transform.to_pixels(p));
     }
     return outline;
   };
@@ -225,31 +226,70 @@ void write_map_png(std::ostream& out, const Scene& scene, const VisibilityMap& m
   for (const auto& polygon : map.pixels.differences) {
     canvas.fill_difference(projected(polygon));
   }
-  const double width = line_width(map, layout.transform.scale);
+  const double width = line_width(map, transform.scale);
   if (map.pixels.side > 0) {
     const std::vector<Vec2>& ends = map.pixels.borders;
     for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {
-      canvas.draw_line(layout.transform.to_pixels(ends[k]), layout.transform.to_pixels(ends[k + 1]),
-                       width);
+      canvas.draw_line(transform.to_pixels(ends[k]), transform.to_pixels(ends[k + 1]), width);
     }
   } else {
     for (const auto& polygon : map.polygons) {
       canvas.draw_edges(projected(polygon), width);
     }
   }
+}
 
-  const CairoSurface picture = canvas.picture();
-  const CairoContext cairo(cairo_create(picture.get()), cairo_destroy);
-  for (const PlacedLabel& label : place_labels(options.labels, layout.transform, 0, layout.width)) {
-    draw_map_label(cairo.get(), label);
+/// A picture below a title on white paper, or on none.
+CairoSurface below_title(cairo_surface_t* picture, const MapPictureOptions& options,
+                         const std::string& title, double text_size, int title_height) {
+  const int width = cairo_image_surface_get_width(picture);
+  CairoSurface page = make_surface(width, title_height + cairo_image_surface_get_height(picture),
+                                   options.transparent);
+  check_drawn(cairo_surface_status(page.get()));
+  const CairoContext cairo(cairo_create(page.get()), cairo_destroy);
+  ChartCanvas canvas(cairo.get(), label_font);
+  const ChartText look{text_size, map_title_ink, true};
+  if (!options.transparent) {
+    canvas.fill({0, 0, 1.0 * width, 1.0 * title_height}, {255, 255, 255});
   }
+  const double margin = text_size / 2;
+  canvas.draw(canvas.elided(title, width - 2 * margin, look), {margin, title_height / 2.0}, 0,
+              look);
+  cairo_set_source_surface(cairo.get(), picture, 0, title_height);
+  cairo_paint(cairo.get());
   check_drawn(cairo_status(cairo.get()));
+  return page;
+}
+
+}  // namespace
+
+void write_map_png(std::ostream& out, const Scene& scene, const VisibilityMap& map,
+                   const MapPictureOptions& options) {
+  const std::string title = clean_text(options.title.value_or(""));
+  const double inch = options.pixels_per_inch > 0 ? options.pixels_per_inch : 96;
+  const double text_size = MapFigure::title_size * inch / 96;
+  const int title_height = title.empty() ? 0 : static_cast<int>(std::ceil(2 * text_size));
+  const MapLayout layout = fit_map(map, options.size, options.size - title_height);
+  Canvas canvas(static_cast<int>(std::lround(layout.width)),
+                static_cast<int>(std::lround(layout.height)), options.transparent);
+  draw_map(canvas, scene, map, options, layout.transform);
+  CairoSurface picture = canvas.picture();
+  {
+    const CairoContext cairo(cairo_create(picture.get()), cairo_destroy);
+    for (const PlacedLabel& label :
+         place_labels(options.labels, layout.transform, 0, layout.width)) {
+      draw_map_label(cairo.get(), label);
+    }
+    check_drawn(cairo_status(cairo.get()));
+  }
+  if (!title.empty()) {
+    picture = below_title(picture.get(), options, title, text_size, title_height);
+  }
   std::ostringstream png;
   write_png(png, picture.get());
-  constexpr std::size_t header = 8 + 25;  // the signature and the first chunk
-  const std::string bytes = std::move(png).str();
-  out << bytes.substr(0, header) << map_description(scene, map, layout.transform.scale)
-      << bytes.substr(header);
+  const std::string name = options.title.value_or("Visibility map of " + scene.name());
+  out << png_with_chunks(png.str(), png_size_chunk(options.pixels_per_inch) +
+                                        map_description(name, map, layout.transform.scale));
 }
 
 }  // namespace transillum

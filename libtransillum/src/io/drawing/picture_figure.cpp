@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <ostream>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -34,11 +36,12 @@ class PictureSheet {
 
   /// @param measuring  measures texts
   PictureSheet(const Picture& picture, const PictureFigure& figure, cairo_t* measuring)
-      : title_{clean_text(figure.title)} {
+      : title_{clean_text(figure.title)}, has_paper_(picture.coverage.empty()) {
     const double pixel = PictureFigure::screen / figure.pixels_per_inch;
     const double picture_height = pixel * picture.height;
     text_size_ = scale_text_size(picture_height);
-    image_.top = title_.empty() ? 0 : std::ceil(2.4 * text_size_);
+    // The picture begins at a whole pixel of its own.
+    image_.top = title_.empty() ? 0 : pixel * std::ceil(2.4 * text_size_ / pixel);
     image_.right = pixel * picture.width;
     image_.bottom = image_.top + picture_height;
     ChartCanvas canvas(measuring, scale_font);
@@ -58,7 +61,9 @@ class PictureSheet {
   const std::optional<ColorBar>& bar() const { return bar_; }
 
   void draw(ChartCanvas& canvas, const DrawImage& draw_image) const {
-    canvas.fill({0, 0, width_, height_}, scale_paper);
+    if (has_paper_) {
+      canvas.fill({0, 0, width_, height_}, scale_paper);
+    }
     if (!title_.empty()) {
       canvas.draw(title_, {0, image_.top / 2}, 0, title_look());
     }
@@ -72,36 +77,39 @@ class PictureSheet {
   ChartText title_look() const { return {1.3 * text_size_, scale_ink, true}; }
 
   std::string title_;
+  bool has_paper_;
   double text_size_ = 0, bar_width_ = 0, width_ = 0, height_ = 0;
   ChartArea image_;
   std::optional<ColorBar> bar_;
 };
 
-/// sRGB, three bytes a pixel.
+/// sRGB, as pixel_colors()
 std::vector<unsigned char> colors_of(const Picture& picture, const PictureFigure& figure,
                                      const std::optional<ColorBar>& bar) {
   if (!bar) {
     return screen_colors(picture, figure.look);
   }
-  std::vector<unsigned char> bytes;
-  bytes.reserve(3 * picture.radiance.size());
-  for (const Rgb& radiance : picture.radiance) {
+  return pixel_colors(picture, [&](const Rgb& radiance, std::vector<unsigned char>& bytes) {
     const ColorBytes color = color_of(default_color_map, bar->fraction_of(radiance));
     bytes.insert(bytes.end(), color.begin(), color.end());
-  }
-  return bytes;
+  });
 }
 
 CairoSurface surface_of(const Picture& picture, const std::vector<unsigned char>& colors) {
-  CairoSurface surface = make_surface(picture.width, picture.height);
+  const bool transparent = !picture.coverage.empty();
+  CairoSurface surface = make_surface(picture.width, picture.height, transparent);
   check_drawn(cairo_surface_status(surface.get()));
   unsigned char* bytes = cairo_image_surface_get_data(surface.get());
   const std::ptrdiff_t stride = cairo_image_surface_get_stride(surface.get());
   const unsigned char* next = colors.data();
   for (int y = 0; y < picture.height; ++y) {
     auto* row = reinterpret_cast<std::uint32_t*>(bytes + y * stride);
-    for (int x = 0; x < picture.width; ++x, next += 3) {
-      row[x] = std::uint32_t{next[0]} << 16 | std::uint32_t{next[1]} << 8 | next[2];
+    for (int x = 0; x < picture.width; ++x, next += transparent ? 4 : 3) {
+      const std::uint32_t alpha = transparent ? next[3] : 255;
+      row[x] = alpha << 24;
+      for (int channel = 0; channel < 3; ++channel) {
+        row[x] |= (next[channel] * alpha + 127) / 255 << (16 - 8 * channel);
+      }
     }
   }
   cairo_surface_mark_dirty(surface.get());
@@ -123,18 +131,40 @@ void draw_by_cairo(cairo_t* cairo, const PictureSheet& sheet, cairo_surface_t* p
   });
 }
 
+/// A context that measures texts of pixels.
+CairoContext measuring_pixels() {
+  const CairoSurface any = make_surface(1, 1);  // which the context keeps
+  return {cairo_create(any.get()), cairo_destroy};
+}
+
+/// Width and height.
+std::pair<int, int> pixels_of(const PictureSheet& sheet, const PictureFigure& figure) {
+  const double pixels = figure.pixels_per_inch / PictureFigure::screen;
+  return {static_cast<int>(std::lround(pixels * sheet.width())),
+          static_cast<int>(std::lround(pixels * sheet.height()))};
+}
+
 void write_figure_png(std::ostream& out, const Picture& picture, const PictureFigure& figure) {
-  const CairoSurface any = make_surface(1, 1);
-  const CairoContext on_pixels(cairo_create(any.get()), cairo_destroy);
-  const PictureSheet sheet(picture, figure, on_pixels.get());
-  const CairoSurface page =
-      make_surface(static_cast<int>(sheet.width()), static_cast<int>(sheet.height()));
+  const bool on_screen = figure.pixels_per_inch == PictureFigure::screen;
+  const std::string size = png_size_chunk(on_screen ? 0 : figure.pixels_per_inch);
+  if (figure.title.empty() && !figure.false_colors) {
+    out << png_with_chunks(
+        png_of(picture.width, picture.height, screen_colors(picture, figure.look)), size);
+    return;
+  }
+  const PictureSheet sheet(picture, figure, measuring_pixels().get());
+  const auto [width, height] = pixels_of(sheet, figure);
+  const CairoSurface page = make_surface(width, height, !picture.coverage.empty());
   check_drawn(cairo_surface_status(page.get()));
   const CairoSurface image = surface_of(picture, colors_of(picture, figure, sheet.bar()));
   const CairoContext cairo(cairo_create(page.get()), cairo_destroy);
+  const double pixels = figure.pixels_per_inch / PictureFigure::screen;
+  cairo_scale(cairo.get(), pixels, pixels);
   draw_by_cairo(cairo.get(), sheet, image.get());
   check_drawn(cairo_status(cairo.get()));
-  write_png(out, page.get());
+  std::ostringstream png;
+  write_png(png, page.get());
+  out << png_with_chunks(png.str(), size);
 }
 
 void write_figure_pdf(std::ostream& out, const Picture& picture, const PictureFigure& figure) {
@@ -171,6 +201,13 @@ void write_with(FigureWriter write, const std::filesystem::path& path, const Pic
 
 }  // namespace
 
+std::pair<int, int> figure_pixels(int width, int height, const PictureFigure& figure) {
+  Picture picture;
+  picture.width = width;
+  picture.height = height;
+  return pixels_of(PictureSheet(picture, figure, measuring_pixels().get()), figure);
+}
+
 bool is_figure_file(const std::filesystem::path& path) {
   const std::string ending = lower_case_ending(path);
   return ending == ".svg" || ending == ".pdf";
@@ -186,12 +223,14 @@ void check_figure_path(const std::filesystem::path& path) {
 
 void write_figure(const std::filesystem::path& path, const Picture& picture,
                   const PictureFigure& figure) {
-  if (!is_figure_file(path)) {
+  if (!is_figure_file(path) && !is_screen_picture(path)) {
     throw InputError(
-        fmt::format("{}: the name of a figure must end in .svg or .pdf", path.string()));
+        fmt::format("{}: the name of a figure must end in .png, .svg or .pdf", path.string()));
   }
-  write_with(lower_case_ending(path) == ".svg" ? write_figure_svg : write_figure_pdf, path, picture,
-             figure);
+  write_with(is_screen_picture(path)             ? write_figure_png
+             : lower_case_ending(path) == ".svg" ? write_figure_svg
+                                                 : write_figure_pdf,
+             path, picture, figure);
 }
 
 void write_false_colors(const std::filesystem::path& path, const Picture& picture,

@@ -33,6 +33,18 @@ std::string shortened(const std::string& text, std::size_t max_size) {
   return "\u2026" + clean.substr(begin);
 }
 
+/// A title of at most about `max_size` bytes: the begin of a longer one, before an ellipsis.
+std::string cut(const std::string& text, std::size_t max_size) {
+  std::string clean = clean_text(text);
+  if (clean.size() > max_size) {
+    while (max_size > 0 && (clean[max_size] & 0xc0) == 0x80) {
+      --max_size;  // inside a character
+    }
+    clean = clean.substr(0, max_size) + "\u2026";
+  }
+  return clean;
+}
+
 std::string heading(const VisibilityMap& map, const std::string& scene_name) {
   return map.receiver == no_patch
              ? fmt::format("Visibility map of {}", scene_name)
@@ -121,8 +133,10 @@ MapFigure::MapFigure(const Scene& scene, const VisibilityMap& map, const MapPict
 
   const auto room = static_cast<std::size_t>((width - 2 * padding) / title_letter);
   const std::size_t fixed = heading(map, {}).size();
-  title = heading(map, scene.name());
-  short_title = heading(map, shortened(scene.name(), room > fixed + 8 ? room - fixed : 8));
+  title = options.title.value_or(heading(map, scene.name()));
+  short_title = options.title
+                    ? cut(title, room)
+                    : heading(map, shortened(scene.name(), room > fixed + 8 ? room - fixed : 8));
   const Vec3& omega = map.frame.omega;
   direction = fmt::format("View along \u03c9 = ({:.4g}, {:.4g}, {:.4g}), toward the light", omega.x,
                           omega.y, omega.z);

@@ -71,7 +71,9 @@ class SvgFigure {
               "; direction omega = {}, {}, {}; view along omega; {} pixels per meter</desc>\n",
               omega.x, omega.y, omega.z, layout_.transform.scale);
     text_.add("{}", style);
-    text_.add("  <rect class=\"page\" width=\"100%\" height=\"100%\"/>\n");
+    if (!options_.transparent) {
+      text_.add("  <rect class=\"page\" width=\"100%\" height=\"100%\"/>\n");
+    }
   }
 
   void add_header() {
@@ -84,10 +86,12 @@ class SvgFigure {
   }
 
   void add_map() {
-    text_.add(
-        "  <rect class=\"ground\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" "
-        "rx=\"4\" fill=\"{}\"/>\n",
-        figure_.left, header, layout_.width, layout_.height, hex(map_colors::ground));
+    if (!options_.transparent) {
+      text_.add(
+          "  <rect class=\"ground\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" "
+          "rx=\"4\" fill=\"{}\"/>\n",
+          figure_.left, header, layout_.width, layout_.height, hex(map_colors::ground));
+    }
     add_window();
     // crispEdges: no background shows between adjacent rectangles.
     text_.add("  <g class=\"map\" stroke-width=\"{:.3g}\" stroke-opacity=\"0.6\"{}>\n",

@@ -35,6 +35,10 @@ void check_pixels(const Picture& picture) {
     throw InputError(fmt::format("picture: {} colors for {} by {} pixels", picture.radiance.size(),
                                  picture.width, picture.height));
   }
+  if (!picture.coverage.empty() && picture.coverage.size() != picture.radiance.size()) {
+    throw InputError(fmt::format("picture: coverage of {} pixels for {} by {} pixels",
+                                 picture.coverage.size(), picture.width, picture.height));
+  }
 }
 
 void write_picture(const std::filesystem::path& path, const Picture& picture,

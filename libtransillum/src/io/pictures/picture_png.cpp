@@ -10,15 +10,12 @@
 namespace transillum {
 
 std::vector<unsigned char> screen_colors(const Picture& picture, const PictureLook& look) {
-  std::vector<unsigned char> bytes;
-  bytes.reserve(3 * picture.radiance.size());
-  for (const Rgb& radiance : picture.radiance) {
+  return pixel_colors(picture, [&](const Rgb& radiance, std::vector<unsigned char>& bytes) {
     const Rgb color = shown_color(radiance, look);
     for (const double channel : {color.r, color.g, color.b}) {
       bytes.push_back(static_cast<unsigned char>(srgb_byte(channel)));
     }
-  }
-  return bytes;
+  });
 }
 
 void write_picture_png(std::ostream& out, const Picture& picture, const PictureLook& look) {

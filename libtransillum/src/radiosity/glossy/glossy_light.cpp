@@ -42,6 +42,18 @@ Rgb GlossyLight::leaving(PatchId i, int pass) const {
                 : lambertian + data_->reflected[static_cast<std::size_t>(g) * data_->passes() + p]);
 }
 
+Rgb GlossyLight::sun_irradiance(PatchId i) const {
+  Rgb sum;
+  if (data_->rays && is_glossy(i)) {
+    for (const ShotRay& ray : data_->rays->of(static_cast<std::size_t>(at(data_->index_of, i)))) {
+      if (ray.source == data_->scene->patch_count()) {
+        sum += ray.irradiance * at(data_->ray_sources, ray.source);
+      }
+    }
+  }
+  return sum;
+}
+
 Rgb GlossyLight::radiance(PatchId i, const Vec3& toward) const {
   if (!(dot(toward, data_->scene->patch(i).normal) > 0)) {
     return {};
