@@ -17,6 +17,7 @@
 #include "support/transfer_difference.h"
 #include "transillum/engine.h"
 #include "transillum/files.h"
+#include "visibility/fast/patch_blocks.h"
 
 namespace transillum::agreement_test {
 namespace {
@@ -234,16 +235,18 @@ TEST_P(AgreementImperfect, OnRoundedAndTurnedScenes) {
 }
 INSTANTIATE_TEST_SUITE_P(Tens, AgreementImperfect, ::testing::Range(0, 20));
 
-/// Some six patches a face, which engine fast queries in blocks.
-void expect_agreement_on_divided(std::uint64_t seed, MakeScene make) {
+/// Some twelve patches a face, which engine fast queries in blocks.
+/// @param in_blocks counts the scenes with blocks
+void expect_agreement_on_divided(std::uint64_t seed, MakeScene make, int& in_blocks) {
   testing::RandomScene random = make(seed);
   const Scene whole(random.description, random.options);
   double area = 0;
   for (const Patch& patch : whole.patches()) {
     area += patch.area;
   }
-  random.options.max_patch_area = area / (6.0 * whole.patch_count());
+  random.options.max_patch_area = area / (12.0 * whole.patch_count());
   const auto scene = std::make_shared<const Scene>(random.description, random.options);
+  in_blocks += PatchBlocks::of(*scene) ? 1 : 0;
   const auto tree = std::make_shared<const BspTree>(*scene);
   const TransferEngine fast = make_engine(Engine::fast, scene, tree);
   const TransferEngine local = make_engine(Engine::local, scene, tree);
@@ -255,11 +258,14 @@ void expect_agreement_on_divided(std::uint64_t seed, MakeScene make) {
 }
 
 void expect_agreement_on_divided(int first, int count) {
+  int in_blocks = 0;
   for (int k = first; k < first + count; ++k) {
     const auto seed = static_cast<std::uint64_t>(k);
-    ASSERT_NO_FATAL_FAILURE(expect_agreement_on_divided(seed, testing::random_scene));
-    ASSERT_NO_FATAL_FAILURE(expect_agreement_on_divided(seed, testing::random_imperfect_scene));
+    for (const MakeScene make : {testing::random_scene, testing::random_imperfect_scene}) {
+      ASSERT_NO_FATAL_FAILURE(expect_agreement_on_divided(seed, make, in_blocks));
+    }
   }
+  EXPECT_GT(2 * in_blocks, count);
 }
 
 class AgreementDivided : public ::testing::TestWithParam<int> {};

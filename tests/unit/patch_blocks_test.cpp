@@ -43,6 +43,14 @@ Sketch trapezoids() {
   return sketch;
 }
 
+/// A divided rug on the divided floor of a room.
+Sketch rug() {
+  Sketch sketch = room();
+  const int red = sketch.material(0.2, 0);
+  sketch.face({{2.5, 0.5, 0}, {4.1, 0.5, 0}, {4.1, 1.5, 0}, {2.5, 1.5, 0}}, red);
+  return sketch;
+}
+
 /// A roof of triangles above a floor of two, and a board between.
 Sketch triangles() {
   Sketch sketch;
@@ -149,18 +157,20 @@ TEST(PatchBlocks, AreNotMadeOfAFrame) {
   EXPECT_EQ(patches_in_blocks(*blocks), divided->patch_count());
 }
 
-/// A divided rug on a divided floor: where both overlap, patches decide which one is seen.
+/// Where both overlap, patches decide which one is seen.
 TEST(PatchBlocks, AreDissolvedWhereFacesOfOnePlaneOverlap) {
-  Sketch sketch = room();
-  const int rug = sketch.material(0.2, 0);
-  sketch.face({{2.5, 0.5, 0}, {4.1, 0.5, 0}, {4.1, 1.5, 0}, {2.5, 1.5, 0}}, rug);
-  const auto scene = sketch.scene({.max_patch_area = 0.05});
+  const auto scene = rug().scene({.max_patch_area = 0.05});
   const auto blocks = PatchBlocks::of(*scene);
   ASSERT_TRUE(blocks);
   expect_each_patch_once(*scene, *blocks);
+  const auto below_or_in_rug = [&](PatchId i) {
+    const Vec3 p = scene->patch(i).center;
+    return p.z == 0 && p.x > 2.5 && p.x < 4.1 && p.y > 0.5 && p.y < 1.5;
+  };
   for (const PatchBlock& block : blocks->blocks) {
-    const PatchId first = blocks->patches[block.patches];
-    EXPECT_TRUE(block.is_single() || scene->material(first).reflectance.r == 0.5);
+    for (std::int32_t k = 0; k < block.size() && !block.is_single(); ++k) {
+      EXPECT_FALSE(below_or_in_rug(blocks->patches[block.patches + static_cast<std::size_t>(k)]));
+    }
   }
   EXPECT_LT(patches_in_blocks(*blocks), scene->patch_count());
 }
@@ -185,6 +195,7 @@ std::vector<Case> cases() {
   return {{"room", room, {.max_patch_area = 0.04}},
           {"two-sided room", room, {.two_sided = true, .max_patch_area = 0.1}},
           {"trapezoids", trapezoids, {.max_patch_area = 0.02}},
+          {"rug", rug, {.max_patch_area = 0.05}},
           {"crossing", crossing, {.max_patch_area = 0.05}},
           {"triangles", triangles, {.max_patch_area = 0.03}},
           {"two-sided triangles", triangles, {.two_sided = true, .max_patch_area = 0.1}}};
@@ -196,12 +207,13 @@ TEST(PatchBlocks, AgreeWithTheLocalMap) {
       SceneDescription description = of.sketch().description();
       if (turn > 0) {
         const auto rotate = testing::random_rotation(turn);
+        const Vec3 offset = turn == 1 ? Vec3{10.0, 20.0, -5.0} : Vec3{1e4, 1e5, -1e4};
         description = testing::moved(description, [&](const Vec3& p) {
           return rotate(p) + Vec3{10.0, 20.0, -5.0};
         });
       }
       const auto scene = std::make_shared<const Scene>(description, of.options);
-      ASSERT_TRUE(PatchBlocks::of(*scene)) << of.name;
+      EXPECT_TRUE(PatchBlocks::of(*scene) || turn == 2) << of.name;
       const auto tree = std::make_shared<const BspTree>(*scene);
       const TransferEngine fast = make_engine(Engine::fast, scene, tree);
       const TransferEngine local = make_engine(Engine::local, scene, tree);
@@ -259,10 +271,13 @@ TEST(PatchBlocks, HaveTheMomentsOfTheLocalMap) {
 TEST(PatchBlocks, CloseARoom) {
   Sketch empty;
   empty.box({0, 0, 0}, {5, 4, 3}, true, empty.material(0.5, 1));
-  const auto box = empty.scene({.max_patch_area = 0.01});
+  const auto box = std::make_shared<const Scene>(
+      testing::moved(empty.description(), testing::random_rotation(5)),
+      SceneOptions{.max_patch_area = 0.01});
   const TransferEngine of_box =
       make_engine(Engine::fast, box, std::make_shared<const BspTree>(*box), {.moments = true});
-  for (const Vec3& omega : directions()) {
+  for (const Vec3& along : directions()) {
+    const Vec3 omega = testing::random_rotation(5)(along);
     const Transfers transfers = of_box(omega, {});
     for (PatchId i = 0; i < box->patch_count(); ++i) {
       const Coverage& side = at(transfers.forward, i);
@@ -275,6 +290,22 @@ TEST(PatchBlocks, CloseARoom) {
       for (std::size_t a = 0; a < 2; ++a) {
         EXPECT_NEAR(at(transfers.forward_moments, i).covered[a], 0, 1e-11 * box->patch(i).area);
       }
+    }
+  }
+}
+
+/// What a pass finds does not depend on the passes before it, nor on their moments.
+TEST(PatchBlocks, KeepNothingFromPassToPass) {
+  const auto scene = crossing().scene({.max_patch_area = 0.05});
+  const auto tree = std::make_shared<const BspTree>(*scene);
+  const TransferEngine used = make_engine(Engine::fast, scene, tree, {.moments = true});
+  for (const Vec3& omega : directions()) {
+    const Transfers a = used(omega, {});
+    const Transfers b = make_engine(Engine::fast, scene, tree, {.moments = true})(omega, {});
+    ASSERT_EQ(a.exchanges.size(), b.exchanges.size());
+    for (std::size_t k = 0; k < a.exchanges.size(); ++k) {
+      ASSERT_EQ(a.exchanges[k].area, b.exchanges[k].area);
+      ASSERT_EQ(a.moments[k].value, b.moments[k].value);
     }
   }
 }

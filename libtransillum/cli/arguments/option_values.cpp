@@ -81,7 +81,7 @@ void add_figure_options(CLI::App& command, std::optional<std::string>& title, bo
       .add_option("--title", title,
                   "title of .png, .svg and .pdf files (default: with the name of the scene in "
                   ".svg and .pdf, none in .png)")
-      ->type_name("TEXT");
+      ->type_name("TITLE");
   command.add_flag("--transparent", transparent, transparent_help);
 }
 

@@ -53,7 +53,11 @@ bool BlockOverlay::is_narrow(PatchId block) const {
     twice_area += static_cast<long double>(p.x - apex.x) * static_cast<long double>(q.y - apex.y) -
                   static_cast<long double>(p.y - apex.y) * static_cast<long double>(q.x - apex.x);
   }
-  return perimeter >= narrow * std::abs(static_cast<double>(twice_area / 2));
+  // Corners are rounded to the grid, and coordinates to doubles.
+  const Bounds& bounds = blocks_.scene->bounds();
+  const double coordinates = std::max(max_abs(bounds.low), max_abs(bounds.high));
+  const double rounding = std::max(1.0, 0x1p-53 * coordinates / projected_.grid.unit);
+  return perimeter * rounding >= narrow * std::abs(static_cast<double>(twice_area / 2));
 }
 
 std::span<const BlockOverlay::Cell> BlockOverlay::divide_outline(
@@ -61,7 +65,7 @@ std::span<const BlockOverlay::Cell> BlockOverlay::divide_outline(
   const std::size_t count = fragment.end - fragment.begin;
   const auto corners =
       std::span<const GridPoint>(projected_.corners).subspan(fragment.begin, count);
-  const NeedleFrame frame = NeedleFrame::around(corners, corners[0]);
+  const NeedleFrame frame = NeedleFrame::around(corners);
   begin_query();
   begin(frame, fragment, fragment, false);
   axes_[3] = axes_[4] = axes_[5] = {};
@@ -226,14 +230,14 @@ int BlockOverlay::cut(const NeedleFrame::Line& line, std::size_t begin, std::siz
     crossings_.push_back({line.dx * x + line.dy * y, x, y, a > 0 ? 1 : -1});
   }
   pool_.resize(kept);
-  close(line);
+  close();
   right = pool_.size();
   pool_.insert(pool_.end(), right_.begin(), right_.end());
   return 0;
 }
 
 /// Adds what bounds both parts along the line.
-void BlockOverlay::close(const NeedleFrame::Line&) {
+void BlockOverlay::close() {
   std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& p, const Crossing& q) {
     return p.along != q.along ? p.along < q.along : p.change > q.change;
   });
@@ -252,6 +256,11 @@ void BlockOverlay::close(const NeedleFrame::Line&) {
 }
 
 PatchId BlockOverlay::chosen_patch(const PatchBlock& block, std::size_t first_axis) const {
+  // The last strip is that of the outline's edge: beside it, there are no patches.
+  if (axes_[first_axis + 2].chosen < axes_[first_axis].chosen + axes_[first_axis + 1].chosen &&
+      block.has_halves()) {
+    return no_patch;
+  }
   const std::int32_t index = block.index(axes_[first_axis].chosen, axes_[first_axis + 1].chosen,
                                          axes_[first_axis + 2].chosen);
   return blocks_.patches[block.patches + static_cast<std::size_t>(index)];

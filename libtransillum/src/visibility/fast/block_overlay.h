@@ -95,8 +95,8 @@ class BlockOverlay {
   void finish();
   void divide_axis(std::size_t axis, std::size_t begin);
   void divide_axis(std::size_t axis, std::int32_t low, std::int32_t high, std::size_t begin);
-  int cut(const NeedleFrame::Line& line, std::size_t begin, std::size_t& middle);
-  void close(const NeedleFrame::Line& line);
+  int cut(const NeedleFrame::Line& line, std::size_t begin, std::size_t& right);
+  void close();
   PatchId chosen_patch(const PatchBlock& block, std::size_t first_axis) const;
   void add_cell(std::size_t begin);
 

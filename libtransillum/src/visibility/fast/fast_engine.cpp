@@ -86,7 +86,8 @@ std::shared_ptr<FastScene> fast_scene(std::shared_ptr<const Scene> scene,
                                       bool by_blocks) {
   auto blocks = by_blocks ? PatchBlocks::of(*scene) : nullptr;
   if (blocks) {
-    tree = std::make_shared<const BspTree>(*blocks->scene);
+    // Small beside the tree of the patches.
+    tree = std::make_shared<const BspTree>(*blocks->scene, Cancellation(), nullptr, 1);
   }
   auto shared = std::make_shared<FastScene>(std::move(scene), std::move(tree), std::move(blocks));
   shared->backs_hidden = hides_all_backs(*shared);

@@ -243,8 +243,9 @@ class FastPass {
     if (toward == Toward::source) {
       return fragment.front;
     }
-    // A block is larger than its patches, and so is the rounding of its area.
-    const double rounding = 0x1p-43 * fragment.area * projected_.smallest_part(fragment.patch);
+    // The rest counts beside the patches of a block, but for the rounding of its sum.
+    const double rounding =
+        0x1p-43 * fragment.area * std::max(0x1p-6, projected_.smallest_part(fragment.patch));
     return !fragment.front && fragment.area - at(seen_from_front_, k) > rounding;
   }
 
@@ -363,7 +364,8 @@ class FastPass {
   /// Whether a candidate is too small beside a fragment that is queried bin by bin: the same for
   /// all bins, so that one of the two fragments finds all of the area.
   bool is_too_small_in_bins(std::int32_t candidate) const {
-    if (at(projected_.fragments, candidate).area >= surely_resolved_ ||
+    const ProjectedFragments::Fragment& other = at(projected_.fragments, candidate);
+    if (other.area * projected_.smallest_part(other.patch) >= surely_resolved_ ||
         !boundary_view_.is_too_small_beside(candidate, largest_bin_)) {
       return false;
     }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "scene/build/division.h"
@@ -24,23 +24,15 @@ struct GridPlace {
 
 /// A part of a grid, or a patch that is in none.
 struct Block {
-  const PatchGrid* grid = nullptr;  ///< null: `patch` as it is
-  PatchId patch = no_patch;
+  const PatchGrid* grid = nullptr;  ///< null: `smallest_patch` as it is
+  PatchId smallest_patch = no_patch;
   std::int32_t column = 0, row = 0, columns = 1, rows = 1;  ///< in the grid
 
-  PatchId smallest_patch() const {
-    if (grid == nullptr) {
-      return patch;
-    }
-    PatchId smallest = std::numeric_limits<PatchId>::max();
-    for_each_patch([&](PatchId i) { smallest = std::min(smallest, i); });
-    return smallest;
-  }
   /// In the order of PatchBlock::index(), without those that the grid does not have.
   template <class Visit>
   void for_each_patch(Visit visit) const {
     if (grid == nullptr) {
-      visit(patch);
+      visit(smallest_patch);
       return;
     }
     for (std::int32_t r = row; r < row + rows; ++r) {
@@ -81,21 +73,37 @@ struct Block {
   }
 };
 
+/// Where to cut an edge of n cells into blocks, with both ends. The same from both ends, so that
+/// faces that share the edge are cut in the same points.
+std::vector<std::int32_t> cuts_of(std::int32_t n) {
+  std::int32_t parts = (n + largest_block - 1) / largest_block;
+  parts += n % 2 == 1 && parts % 2 == 0 ? 1 : 0;
+  std::vector<std::int32_t> cuts;
+  const auto place = [&](std::int32_t k) {
+    return static_cast<std::int32_t>(std::int64_t{k} * n / parts);
+  };
+  for (std::int32_t k = 0; k <= parts; ++k) {
+    cuts.push_back(2 * k <= parts ? place(k) : n - place(parts - k));
+  }
+  return cuts;
+}
+
 /// The parts of a grid that are no larger than a block.
 void add_blocks(const PatchGrid& grid, std::vector<Block>& blocks) {
-  const auto parts = [](std::int32_t n) { return (n + largest_block - 1) / largest_block; };
-  const std::int32_t across = parts(grid.columns), up = parts(grid.rows);
-  for (std::int32_t y = 0; y < up; ++y) {
-    for (std::int32_t x = 0; x < across; ++x) {
-      const std::int32_t c = x * grid.columns / across, r = y * grid.rows / up;
-      std::int32_t columns = (x + 1) * grid.columns / across - c;
-      std::int32_t rows = (y + 1) * grid.rows / up - r;
+  const std::vector<std::int32_t> across = cuts_of(grid.columns), up = cuts_of(grid.rows);
+  for (std::size_t y = 0; y + 1 < up.size(); ++y) {
+    for (std::size_t x = 0; x + 1 < across.size(); ++x) {
+      const std::int32_t c = across[x], r = up[y];
+      std::int32_t columns = across[x + 1] - c, rows = up[y + 1] - r;
       if (grid.halves) {
         columns = std::min(columns, grid.columns - c - r);
         rows = std::min(rows, grid.columns - c - r);
       }
       if (columns > 0) {
-        blocks.push_back({&grid, no_patch, c, r, columns, rows});
+        Block block{&grid, std::numeric_limits<PatchId>::max(), c, r, columns, rows};
+        block.for_each_patch(
+            [&](PatchId i) { block.smallest_patch = std::min(block.smallest_patch, i); });
+        blocks.push_back(block);
       }
     }
   }
@@ -127,7 +135,7 @@ class BlockBuilder {
     std::vector<UnitedPatch> patches;
     for (const Block& block : blocks_) {
       UnitedPatch& patch = patches.emplace_back();
-      patch.like = block.smallest_patch();
+      patch.like = block.smallest_patch;
       if (block.grid != nullptr) {
         for (const GridPlace& corner : block.outline()) {
           patch.outline.push_back(block.grid->point(corner.column, corner.row));
@@ -159,7 +167,7 @@ class BlockBuilder {
       made.patches = static_cast<std::uint32_t>(built->patches.size());
       made.lines = static_cast<std::uint32_t>(built->lines.size());
       if (block.grid == nullptr) {
-        built->patches.push_back(block.patch);
+        built->patches.push_back(block.smallest_patch);
         built->shares.push_back(1);
         continue;
       }
@@ -176,7 +184,7 @@ class BlockBuilder {
   /// In the order of their patches, so that the two sides of a face stay together.
   void sort() {
     std::stable_sort(blocks_.begin(), blocks_.end(), [](const Block& a, const Block& b) {
-      return a.smallest_patch() < b.smallest_patch();
+      return a.smallest_patch < b.smallest_patch;
     });
   }
 
@@ -272,8 +280,11 @@ std::shared_ptr<const PatchBlocks> PatchBlocks::of(const Scene& scene,
   }
   auto united = builder.united();
   // Where faces of one plane overlap, the smaller patch covers the larger one.
-  const auto overlaps =
-      coplanar_overlaps(*united, std::numeric_limits<std::size_t>::max(), cancellation);
+  const std::size_t most = scene.patches().size();
+  const auto overlaps = coplanar_overlaps(*united, most, cancellation);
+  if (overlaps.size() >= most) {
+    return nullptr;
+  }
   if (!overlaps.empty()) {
     std::vector<bool> overlapping(united->patches().size(), false);
     for (const CoplanarOverlap& overlap : overlaps) {

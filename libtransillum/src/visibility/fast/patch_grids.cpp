@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "transillum/at.h"
@@ -12,8 +13,9 @@ namespace {
 
 /// Grids with fewer patches are not worth the division of what they see.
 constexpr std::size_t smallest_grid = 4;
-/// Largest distance of a point from the line of its grid, relative to the largest coordinate.
-constexpr double straight = 0x1p-49;
+/// Largest distance of a point from the line and the plane of its grid, relative to the largest
+/// coordinate, and to the width of a cell.
+constexpr double straight = 0x1p-49, straight_cell = 1e-12;
 
 class GridFinder {
  public:
@@ -85,7 +87,7 @@ class GridFinder {
            scene_.outline(i).size() == corners;
   }
   bool have_one_normal(PatchId i, PatchId j) const {
-    return norm(scene_.patch(i).normal - scene_.patch(j).normal) < 1e-12;
+    return norm(scene_.patch(i).normal - scene_.patch(j).normal) < 1e-9;
   }
   /// Whether q to r continues the line from p to q, but for rounding.
   bool continues(PointId p, PointId q, PointId r) const {
@@ -196,7 +198,9 @@ class GridFinder {
       rows.push_back(row_from(next, step, reversed));
       const TriangleRow &row = rows.back(), &before = rows[rows.size() - 2];
       if (row.patches.empty() || row.below != before.above || !have_one_normal(i, row.patches[0])) {
-        return {};
+        return {}
+        followed += row.patches.size();
+        ;
       }
     }
     PatchGrid grid;
@@ -206,7 +210,7 @@ class GridFinder {
     const auto n = static_cast<std::int32_t>(count);
     grid.columns = grid.rows = n;
     grid.halves = true;
-    grid.points.assign((count + 1) * (count + 1), 0);
+    grid.points.assign((count + 1) * (count + 1), rows[0].below[0]);
     grid.patches.assign(2 * count * count, no_patch);
     // Seen from behind, columns are rows.
     const auto cell = [&](std::int32_t c, std::int32_t r, std::int32_t across) {
@@ -225,10 +229,14 @@ class GridFinder {
     return grid;
   }
 
-  /// Whether the points of each column, row and diagonal follow each other on a line, but for
-  /// rounding.
+  /// Whether the points of each column, row and diagonal follow each other on a line, in one plane,
+  /// but for rounding.
   bool is_straight(const PatchGrid& grid) const {
     bool all = true;
+    const Vec3 normal = scene_.patch(grid.patches[0]).normal, origin = scene_.point(grid.points[0]);
+    for (const PointId p : grid.points) {
+      all = all && std::abs(dot(normal, scene_.point(p) - origin)) <= limit_;
+    }
     const auto length = [&](std::int32_t whole, std::int32_t k) {
       return grid.halves ? grid.columns - k : whole;
     };
@@ -252,7 +260,9 @@ class GridFinder {
     Vec3 before = start;
     for (std::int32_t k = 1; k <= steps; ++k) {
       const Vec3 p = scene_.point(at_step(k));
-      if (!(dot(p - before, along) > 0) || norm(cross(along, p - start)) > limit_ * norm(along)) {
+      const double off_line = norm(cross(along, p - start)) / norm(along);
+      if (!(dot(p - before, along) > 0) || off_line > limit_ ||
+          off_line > straight_cell * norm(p - before)) {
         return false;
       }
       before = p;

@@ -79,11 +79,11 @@ class VisibleAreas {
               moments_ ? moments_->of_fragment(patch, fragment) : std::array<double, 2>{});
         continue;
       }
+      if (moments_) {
+        for_each_patch(fragment, [&](PatchId patch, double) { moments_->prepare(patch); });
+      }
       // The integrals over whole patches are 0.
       for_each_share(fragment, [&](PatchId patch, double area) {
-        if (moments_) {
-          moments_->prepare(patch);
-        }
         visit(fragment, patch, area, std::array<double, 2>{});
       });
     }
@@ -182,8 +182,13 @@ class VisibleAreas {
     for (const BlockOverlay::Cell& cell : cells) {
       sum += std::max(0.0, cell.area);
     }
+    if (!(sum > 0)) {
+      visit(patch_of(fragment), fragment.area);
+    }
     for (const BlockOverlay::Cell& cell : cells) {
-      visit(cell.own, sum > 0 ? fragment.area * std::max(0.0, cell.area) / sum : 0);
+      if (cell.area > 0) {
+        visit(cell.own, fragment.area * (cell.area / sum));
+      }
     }
   }
 
@@ -206,20 +211,25 @@ class VisibleAreas {
       return projected_.smallest_part(fragment.patch) * fragment.area;
     };
     const double least = negligible * frame.determinant * std::min(smallest(own), smallest(other));
-    double sum = 0, largest = 0;
+    double sum = 0;
     for (const BlockOverlay::Cell& cell : cells) {
       sum += cell.area > least ? cell.area : 0;
-      largest = std::max(largest, cell.area);
     }
-    // All of the area goes to patches, however rounding has divided a needle.
-    const bool one = sum == 0;
+    if (!(sum > 0)) {
+      // All of the area goes to patches, however rounding has divided a needle.
+      const auto largest = std::max_element(
+          cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.area < b.area; });
+      const bool none = largest == cells.end();
+      const CellBoundary boundary{
+          frame, none ? std::span<const BoundarySegment>() : overlay_->boundary(*largest)};
+      add_part(boundary, {none ? patch_of(own) : largest->own,
+                          none ? patch_of(other) : largest->other, area});
+      return;
+    }
     for (const BlockOverlay::Cell& cell : cells) {
-      if (one ? cell.area == largest : cell.area > least) {
+      if (cell.area > least) {
         add_part(CellBoundary{frame, overlay_->boundary(cell)},
-                 {cell.own, cell.other, one ? area : area * (cell.area / sum)});
-        if (one) {
-          return;
-        }
+                 {cell.own, cell.other, area * (cell.area / sum)});
       }
     }
   }

@@ -91,8 +91,10 @@ class ExactView {
   template <class Visit>
   void for_each_framed_segment(Visit visit) const {
     const NeedleFrame map = frame();
+    const auto dx = static_cast<Real>(origin_.x - map.origin.x);
+    const auto dy = static_cast<Real>(origin_.y - map.origin.y);
     for_each_covered_segment([&](Real px, Real py, Real qx, Real qy) {
-      const NeedleFrame::Point p = map.map(px, py), q = map.map(qx, qy);
+      const NeedleFrame::Point p = map.map(px + dx, py + dy), q = map.map(qx + dx, qy + dy);
       visit(p.x, p.y, q.x, q.y);
     });
   }
@@ -100,7 +102,7 @@ class ExactView {
   NeedleFrame frame() const {
     const ProjectedFragments::Fragment& own = at(projected_.fragments, fragment_);
     const std::span<const GridPoint> corners(projected_.corners);
-    return NeedleFrame::around(corners.subspan(own.begin, own.end - own.begin), origin_);
+    return NeedleFrame::around(corners.subspan(own.begin, own.end - own.begin));
   }
 
   // Never; for the same use as BoundaryView.

@@ -7,8 +7,8 @@
 
 namespace transillum {
 
-NeedleFrame NeedleFrame::around(std::span<const GridPoint> corners, const GridPoint& origin) {
-  NeedleFrame frame = at_origin(origin);
+NeedleFrame NeedleFrame::around(std::span<const GridPoint> corners) {
+  NeedleFrame frame = at_origin(corners[0]);
   GridPoint longest;
   double extent = 0;
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -29,7 +29,7 @@ NeedleFrame NeedleFrame::around(std::span<const GridPoint> corners, const GridPo
   }
   const auto ratio = static_cast<double>(extent / (high - low));
   if (!(ratio > 0) || std::isinf(ratio)) {
-    return at_origin(origin);
+    return at_origin(corners[0]);
   }
   frame.set_scale(std::ldexp(1.0, std::ilogb(ratio)));
   return frame;

@@ -58,8 +58,9 @@ struct NeedleFrame {
     frame.origin = origin;
     return frame;
   }
-  /// Coordinates in which a polygon is about as high as its longest edge is long.
-  static NeedleFrame around(std::span<const GridPoint> corners, const GridPoint& origin);
+  /// Coordinates from the first corner of a polygon, in which it is about as high as its longest
+  /// edge is long.
+  static NeedleFrame around(std::span<const GridPoint> corners);
 
   Point map(const FinePoint& p) const {
     const auto x = static_cast<double>(p.grid.x - origin.x) + p.x;

@@ -31,7 +31,8 @@ using FailureCounts = std::array<std::int32_t, query_failures>;
 /// The most frequent reason; QueryFailure::none where all are 0.
 QueryFailure main_of(const FailureCounts& counts);
 
-/// The cost of visibility queries.
+/// The cost of visibility queries. Where a query is shared by a block of patches, they share time
+/// and candidates, and the first one has the numbers of queries.
 struct PatchCost {
   double seconds = 0;           ///< wall time, s
   std::int64_t queries = 0;     ///< queries of a fragment, or of its part in one bin
