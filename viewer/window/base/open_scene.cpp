@@ -17,7 +17,10 @@ OpenScene::OpenScene(SolveRunner& runner, Relighting& relighting)
   connect(&runner_, &SolveRunner::scene_loaded, this, &OpenScene::take_scene);
   connect(&runner_, &SolveRunner::patches_changed, this, &OpenScene::take_patches);
   connect(&runner_, &SolveRunner::snapshot_ready, this, &OpenScene::take_snapshot);
-  connect(&runner_, &SolveRunner::failed, this, [this] { opening_ = false; });
+  connect(&runner_, &SolveRunner::failed, this, [this] {
+    opening_ = false;
+    given_ = {};
+  });
   connect(&relighting_, &Relighting::changed, this, &OpenScene::show_again);
 }
 
@@ -79,7 +82,8 @@ void OpenScene::show_earlier(const std::shared_ptr<const LoadedScene>& loaded,
 }
 
 bool OpenScene::is_open(const std::string& spec, const RunOptions& options) const {
-  return loaded_ && spec == spec_ &&
+  const bool is_given = given_.second && given_.first == spec;
+  return loaded_ && spec == spec_ && !is_given &&
          ((loaded_->stored && !loaded_->description) ||
           RunOptions{{}, options.scene, options.input} == RunOptions{{}, options_, input_});
 }

@@ -55,7 +55,7 @@ class OpenScene : public QObject {
   void solve_faces(const std::shared_ptr<const LoadedScene>& loaded, const Faces& faces,
                    const SolverSnapshot& before, bool runs);
   /// The next open() of `spec` has these faces, which no file has, instead of the faces that it
-  /// names.
+  /// names; until a scene is loaded or fails to load, is_open(spec) is false.
   void give_faces(const std::string& spec, std::shared_ptr<const SceneDescription> faces) {
     given_ = {spec, std::move(faces)};
   }
