@@ -14,6 +14,7 @@
 #include <algorithm>
 
 #include "lessons/session_file.h"
+#include "open_scene.h"
 #include "scene/scene_page.h"
 #include "scene/show_menu.h"
 #include "solved_window.h"
@@ -26,6 +27,7 @@
 #include "window/files/export_actions.h"
 #include "window/files/file_actions.h"
 #include "window/files/frame_recorder.h"
+#include "window/files/kept_faces.h"
 #include "window/files/recovery.h"
 #include "window/files/window_session.h"
 #include "window/inspection_panels.h"
@@ -48,7 +50,25 @@ struct RecoveringWindow {
 
   explicit RecoveringWindow(const QTemporaryDir& folder)
       : recovery(window->frame(), session, folder.path()) {}
+
+  /// Whether an edit is done, and solved.
+  bool edited() const {
+    return wait_for([this] {
+      return !window->findChild<SceneEdits*>()->busy() && window->scene.has_unsaved_faces() &&
+             window->snapshot()->progress.finished && window->settled();
+    });
+  }
+  bool open_and_add(const QString& scene, AddedSolid solid) const {
+    window->open(scene);
+    if (!wait_for([this] { return window->snapshot() && window->settled(); })) {
+      return false;
+    }
+    window->findChild<SceneEdits*>()->add(solid);
+    return edited();
+  }
 };
+
+const QStringList faces_files{"*.obj", "*.mtl"};
 
 /// Copies session, solve and faces.
 void copy_all(const QString& from, const QString& to) {
@@ -169,46 +189,150 @@ class RecoveryTest : public QObject {
     QVERIFY(!QFile::exists(kept));
   }
 
+  void edited_faces_survive_a_killed_program_data() {
+    QTest::addColumn<bool>("open_again");
+    QTest::newRow("at the start") << false;
+    QTest::newRow("over other edits of the scene") << true;
+  }
   // A session named faces that no file had, so it could not be opened.
   void edited_faces_survive_a_killed_program() {
-    const QTemporaryDir folder, killed;
+    QFETCH(bool, open_again);
+    const QTemporaryDir folder, killed, scenes;
+    const QString scene = write_open_scene(scenes.path());
     std::vector<Rgb> radiosity;
+    SceneDescription before;
     {
       RecoveringWindow w(folder);
-      const auto& window = w.window;
-      window->open("cornell-box");
-      QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
-      auto* edits = window->findChild<SceneEdits*>();
+      QVERIFY(w.open_and_add(scene, AddedSolid::box));
+      auto* edits = w.window->findChild<SceneEdits*>();
+      edits->choose(0, SceneEdits::Reach::face);
+      edits->remove();
+      QVERIFY(w.edited());
       edits->add(AddedSolid::board);
-      QVERIFY(wait_for([&] {
-        return !edits->busy() && window->scene.has_unsaved_faces() && window->settled();
-      }));
+      QVERIFY(w.edited());
       w.recovery.keep();
       copy_all(folder.path(), killed.path());
-      const QStringList faces{"*.obj", "*.mtl"};
-      QCOMPARE(QDir(killed.path()).entryList(faces).size(), 2);
-      radiosity = window->snapshot()->radiosity;
+      QCOMPARE(QDir(killed.path()).entryList(faces_files).size(), 2);
+      radiosity = w.window->snapshot()->radiosity;
+      before = *w.window->scene.faces().edited;
       // The faces are in the user's file now.
-      const QTemporaryDir own;
-      window->findChild<ExportActions*>()->write_scene_file(own.filePath("saved.obj"));
+      w.window->findChild<ExportActions*>()->write_scene_file(scenes.filePath("saved.obj"));
       w.recovery.keep();
-      QVERIFY(QDir(folder.path()).entryList(faces).isEmpty());
+      QVERIFY(QDir(folder.path()).entryList(faces_files).isEmpty());
     }
     copy_all(killed.path(), folder.path());
     RecoveringWindow w(folder);
     const auto& window = w.window;
+    if (open_again) {
+      QVERIFY(w.open_and_add(scene, AddedSolid::room));
+    }
     w.recovery.offer();
+    Answers answers;
+    answers.button = "Continue";
     window->findChild<QPushButton*>("restore_session")->click();
+    QCOMPARE(answers.given, open_again ? 1 : 0);
     QVERIFY(wait_for([&] {
-      return window->snapshot() && window->snapshot()->progress.finished && window->settled();
+      return !window->scene.is_opening() && window->snapshot() &&
+             window->snapshot()->progress.finished && window->settled();
     }));
     QVERIFY(window->snapshot()->radiosity == radiosity);
     QVERIFY(window->scene.has_unsaved_faces());
-    QCOMPARE(window->scene.spec(), std::string("cornell-box (edited)"));
+    QCOMPARE(window->scene.spec(), scene.toStdString() + " (edited)");
+    const SceneDescription& faces = *window->scene.faces().edited;
+    QCOMPARE(faces.name, before.name);
+    QVERIFY(!faces.files.empty() && faces.files == before.files);
+    QVERIFY(faces.face_number == before.face_number && faces.face_number.front() > 0);
     QVERIFY(window->findChild<SceneEdits*>()->why_unavailable().isEmpty());
     for (const QString& name : QDir(killed.path()).entryList({"*.json", "*.obj", "*.mtl"})) {
       QVERIFY2(!QFile::exists(folder.filePath(name)), qPrintable(name));
     }
+    QCOMPARE(QDir(folder.path()).entryList(faces_files).size(), 2);  // kept anew
+  }
+
+  void kept_faces_lose_neither_numbers_nor_sides() {
+    const QTemporaryDir folder;
+    const std::filesystem::path file = folder.filePath("kept.obj").toStdString();
+    SceneDescription faces = describe_scene("boards");
+    const std::size_t count = faces.face_count();
+    faces.name = "a room";
+    faces.files = {"room.obj", "room.mtl"};
+    for (std::size_t f = 0; f < count; ++f) {
+      faces.face_number.push_back(static_cast<std::int32_t>(3 * f + 1));
+      faces.face_two_sided.push_back(f % 2);
+    }
+    faces.joined_to = {-1, 1, 1};
+    faces.coordinate_rounding = 0.1 / 3;
+    write_kept_faces(file, faces);
+    nlohmann::json lists = nlohmann::json::parse(kept_lists(faces).dump());
+    const SceneDescription read = read_kept_faces(file, lists, "faces");
+    QVERIFY(read.points == faces.points && read.corners == faces.corners);
+    QVERIFY(read.face_begin == faces.face_begin && read.face_material == faces.face_material);
+    QVERIFY(read.face_number == faces.face_number && read.joined_to == faces.joined_to);
+    QVERIFY(read.face_two_sided == faces.face_two_sided);
+    QCOMPARE(read.coordinate_rounding, 0.1 / 3);
+    QCOMPARE(read.name, faces.name);
+    QVERIFY(read.files == faces.files);
+    lists["two-sided"].push_back(0);
+    QVERIFY_EXCEPTION_THROWN(read_kept_faces(file, lists, "faces"), InputError);
+    lists.erase("two-sided");
+    QVERIFY_EXCEPTION_THROWN(read_kept_faces(file, lists, "faces"), InputError);
+  }
+
+  void faces_outlive_a_signal() {
+    const QTemporaryDir folder;
+    {
+      RecoveringWindow w(folder);
+      QVERIFY(w.open_and_add("cornell-box", AddedSolid::board));
+      w.recovery.leave_faces();
+    }
+    QCOMPARE(QDir(folder.path()).entryList({"*.json", "*.obj", "*.mtl"}).size(), 3);
+    const QTemporaryDir other;
+    {
+      RecoveringWindow w(other);
+      w.window->open("cornell-box");
+      QVERIFY(wait_for([&] { return w.window->snapshot() && w.window->settled(); }));
+      w.recovery.leave_faces();
+    }
+    QVERIFY(QDir(other.path()).entryList({"*.json"}).isEmpty());
+  }
+
+  void a_session_is_kept_though_its_faces_cannot_be_written() {
+    const QTemporaryDir folder;
+    RecoveringWindow w(folder);
+    const QString name = QDir(folder.path()).entryList({"*.lock"}).value(0).chopped(5);
+    QVERIFY(QDir(folder.path()).mkpath(name + ".1.obj/full"));
+    QVERIFY(w.open_and_add("cornell-box", AddedSolid::board));
+    w.recovery.keep();
+    const QString text = contents_of(folder.filePath(name + ".json"));
+    QVERIFY(text.contains("cornell-box (edited)"));
+    QVERIFY(!text.contains("\"faces\":"));
+  }
+
+  void a_session_that_is_not_opened_stays_data() {
+    QTest::addColumn<QString>("scene");
+    QTest::newRow("fails") << "missing.obj";
+    QTest::newRow("is canceled") << "sphere-flake:levels=4";
+  }
+  void a_session_that_is_not_opened_stays() {
+    QFETCH(QString, scene);
+    const QTemporaryDir folder;
+    const QStringList files{"killed.1.mtl", "killed.1.obj", "killed.json", "killed.tck"};
+    for (const QString& file : files) {
+      const QByteArray session = "{\"show\": {\"scene\": \"" + scene.toUtf8() + "\"}}";
+      write_file(folder.filePath(file), file.endsWith("json") ? session : QByteArray());
+    }
+    RecoveringWindow w(folder);
+    w.recovery.offer();
+    auto* bar = w.window->findChild<Banner*>("recovery_bar");
+    auto* loading = w.window->findChild<Banner*>("loading_bar");
+    w.window->findChild<QPushButton*>("restore_session")->click();
+    if (scene.startsWith("sphere")) {
+      QVERIFY(bar->isHidden());
+      QVERIFY(wait_for([&] { return !loading->isHidden(); }));
+      w.window->findChild<QPushButton*>("cancel_loading")->click();
+    }
+    QVERIFY(wait_for([&] { return !bar->isHidden(); }));
+    QCOMPARE(QDir(folder.path()).entryList({"killed.*"}, QDir::Files, QDir::Name), files);
   }
 
   void every_kept_session_is_offered_until_it_is_discarded() {

@@ -2,7 +2,7 @@
 //
 // Each running program has a file of its session, NAME.json, a file of its solve, NAME.tck, and a
 // lock file, NAME.lock, which tells other programs whether it still runs. Edited faces are in
-// NAME.obj and NAME.mtl.
+// NAME.N.obj and NAME.N.mtl, where N counts the edits; the session says which belong to it.
 #include "window/files/recovery.h"
 
 #include <QDateTime>
@@ -13,21 +13,25 @@
 #include <QPushButton>
 #include <QStandardPaths>
 #include <QUuid>
-#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/json_text.h"
 #include "lessons/session_file.h"
 #include "scene/scene_page.h"
 #include "support/failure_text.h"
+#include "support/json_object.h"
 #include "transillum/files.h"
 #include "transillum/scene.h"
 #include "widgets/banner.h"
 #include "window/base/notifier.h"
 #include "window/base/open_scene.h"
+#include "window/files/kept_faces.h"
 #include "window/files/window_session.h"
 
 namespace transillum::viewer {
+
+using nlohmann::json;
 
 namespace {
 
@@ -42,12 +46,16 @@ QString made(const QString& folder) {
 QString beside(const QString& session, const char* ending) {
   return session.chopped(QStringLiteral("json").size()) + ending;
 }
-QString checkpoint_of(const QString& session) { return beside(session, "tck"); }
-QString faces_of(const QString& session) { return beside(session, "obj"); }
 
-void remove_faces(const QString& session) {
-  QFile::remove(faces_of(session));
-  QFile::remove(beside(session, "mtl"));
+/// Removes all files of faces of a session but one OBJ with its MTL.
+void remove_faces(const QString& session, const QString& but = {}) {
+  const QFileInfo file(session);
+  const QString any = file.completeBaseName() + ".*";
+  for (const QFileInfo& found : file.dir().entryInfoList({any + "obj", any + "mtl"}, QDir::Files)) {
+    if (but.isEmpty() || found.completeBaseName() != QFileInfo(but).completeBaseName()) {
+      QFile::remove(found.filePath());
+    }
+  }
 }
 
 }  // namespace
@@ -70,8 +78,15 @@ Recovery::Recovery(const WindowFrame& frame, WindowSession& session, const QStri
   for (const auto signal : {&OpenScene::scene_loaded, &OpenScene::patches_changed}) {
     connect(&frame_.state.scene, signal, this, [this] { kept_iteration_ = -1; });
   }
+  connect(&frame_.state.scene, &OpenScene::scene_shown, this, &Recovery::finish_if_open);
+  connect(&frame_.state.runner, &SolveRunner::failed, this, &Recovery::offer_again);
+  connect(&frame_.state.runner, &SolveRunner::state_changed, this, [this](RunState state) {
+    if (std::exchange(loads_, state == RunState::loading) && !loads_) {
+      offer_again();  // the load was canceled
+    }
+  });
   every_.start();
-  frame_.state.runner.save_to(checkpoint_of(session_file(name_)).toStdString());
+  frame_.state.runner.save_to(beside(session_file(name_), "tck").toStdString());
   Banner* bar = frame_.page.recovery_bar();
   QPushButton* restore = bar->add_button("restore_session", tr("Continue"));
   restore->setToolTip(
@@ -86,6 +101,10 @@ Recovery::Recovery(const WindowFrame& frame, WindowSession& session, const QStri
 }
 
 Recovery::~Recovery() {
+  give_back();
+  if (leaves_) {
+    return;
+  }
   QFile::remove(session_file(name_));
   remove_faces(session_file(name_));
   frame_.state.runner.save_to({});
@@ -100,6 +119,10 @@ QString Recovery::session_file(const QString& name) const {
   return QStringLiteral("%1/%2.json").arg(folder_, name);
 }
 
+QString Recovery::faces_file(int generation) const {
+  return QStringLiteral("%1/%2.%3.obj").arg(folder_, name_).arg(generation);
+}
+
 QString Recovery::taken_over(const QString& checkpoint) const {
   const QString mine = QStringLiteral("%1/%2-taken.tck").arg(folder_, name_);
   return QFile::rename(checkpoint, mine) ? mine : QString();
@@ -108,7 +131,7 @@ QString Recovery::taken_over(const QString& checkpoint) const {
 void Recovery::remove_orphans() const {
   for (const QFileInfo& found :
        QDir(folder_).entryInfoList({"*.tck", "*.obj", "*.mtl"}, QDir::Files)) {
-    const QString name = found.completeBaseName().remove(QStringLiteral("-taken"));
+    const QString name = found.baseName().remove(QStringLiteral("-taken"));
     QLockFile lock(folder_ + '/' + name + ".lock");
     lock.setStaleLockTime(0);
     if (name != name_ && !QFile::exists(session_file(name)) && lock.tryLock()) {
@@ -128,26 +151,48 @@ void Recovery::on_snapshot() {
 void Recovery::keep_faces() {
   const OpenScene& scene = frame_.state.scene;
   const auto faces = scene.has_unsaved_faces() ? scene.faces().edited : nullptr;
-  if (faces && faces != kept_faces_) {
-    write_obj(faces_of(session_file(name_)).toStdString(), *faces);
-  } else if (!faces && kept_faces_) {
-    remove_faces(session_file(name_));
-  }
-  kept_faces_ = faces;
-}
-
-void Recovery::keep() {
-  if (!frame_.state.scene.loaded()) {
+  if (faces == kept_faces_) {
     return;
   }
-  try {
-    keep_faces();
-    const std::string text = to_text(session_.current(), folder_.toStdString());
-    write_file_whole(session_file(name_).toStdString(), [&](std::ostream& out) { out << text; });
-  } catch (const std::exception&) {
-    // A full disk must not interrupt the user every minute.
+  if (!faces || kept_scene_ != scene.spec()) {
+    kept_faces_ = nullptr;
+  }
+  if (faces) {
+    write_kept_faces(faces_file(generation_ + 1).toStdString(), *faces);
+    ++generation_;
+    kept_scene_ = scene.spec();
+    kept_faces_ = faces;
   }
 }
+
+bool Recovery::try_keep() {
+  if (!frame_.state.scene.loaded()) {
+    return false;
+  }
+  bool faces_kept = true;
+  try {
+    keep_faces();
+  } catch (const std::exception&) {
+    faces_kept = false;
+  }
+  try {
+    std::string text = to_text(session_.current(), folder_.toStdString());
+    const QString file = kept_faces_ ? faces_file(generation_) : QString();
+    if (kept_faces_) {
+      json session = json::parse(text);
+      session["faces"] = kept_lists(*kept_faces_);
+      session["faces"]["file"] = QFileInfo(file).fileName().toStdString();
+      text = session.dump(1, ' ', false, json::error_handler_t::replace) + '\n';
+    }
+    write_file_whole(session_file(name_).toStdString(), [&](std::ostream& out) { out << text; });
+    remove_faces(session_file(name_), file);
+    return faces_kept;
+  } catch (const std::exception&) {
+    return false;  // a full disk must not interrupt the user every minute
+  }
+}
+
+void Recovery::leave_faces() { leaves_ = frame_.state.scene.has_unsaved_faces() && try_keep(); }
 
 void Recovery::offer() {
   remove_orphans();
@@ -171,29 +216,87 @@ void Recovery::restore() {
   if (!frame_.guard.may_lose(&frame_.window, tr("Continue"), WorkGuard::Lost::scene)) {
     return;
   }
-  frame_.page.recovery_bar()->dismiss();
-  frame_.state.runner.resume_from(taken_over(checkpoint_of(offered_)).toStdString());
+  auto lock = std::make_unique<QLockFile>(beside(offered_, "lock"));
+  lock->setStaleLockTime(0);
+  lock->tryLock();
   try {
-    const std::string name = offered_.toStdString();
-    const Session session = session_from_text(read_json_file(name), name, folder_.toStdString());
-    if (const QString file = faces_of(offered_); QFile::exists(file)) {
-      SceneDescription faces = describe_scene(file.toStdString());
-      faces.name = std::filesystem::path(session.state.scene).filename().string();
-      faces.files.clear();
-      frame_.state.scene.give_faces(session.state.scene,
-                                    std::make_shared<const SceneDescription>(std::move(faces)));
-    }
+    const Session session = read_offered();
+    frame_.page.recovery_bar()->dismiss();
+    restored_scene_ = session.state.scene;
+    restoring_ = std::move(lock);
+    loads_ = frame_.state.runner.state() == RunState::loading;
+    taken_ = taken_over(beside(offered_, "tck"));
+    frame_.state.runner.resume_from(taken_.toStdString());
+    frame_.state.scene.give_faces(restored_scene_, restored_faces_);
     session_.restore(session);
   } catch (const std::exception& error) {
     frame_.notifier.show_failure(failure_text(error));
+    offer_again();
     return;
   }
-  discard();
+  if (!frame_.state.scene.is_opening()) {
+    finish_if_open();
+  }
+}
+
+Session Recovery::read_offered() {
+  const std::string name = offered_.toStdString();
+  json whole = parse_json(read_json_file(name), name);
+  restored_faces_ = nullptr;
+  if (whole.is_object() && whole.contains("faces")) {
+    const json faces = whole["faces"];
+    const std::string where = name + ", faces";
+    std::string file;
+    JsonObject(faces, where).read("file", file);
+    const QString in_folder = QFileInfo(QString::fromStdString(file)).fileName();
+    restored_faces_ = std::make_shared<const SceneDescription>(
+        read_kept_faces((folder_ + '/' + in_folder).toStdString(), faces, where));
+    whole.erase("faces");
+  }
+  return session_from_text(whole.dump(), name, folder_.toStdString());
+}
+
+void Recovery::finish_if_open() {
+  if (!restoring_) {
+    return;
+  }
+  const OpenScene& scene = frame_.state.scene;
+  const bool open = restored_scene_.empty() || scene.spec() == restored_scene_;
+  const bool has_faces = !restored_faces_ || scene.faces().edited == restored_faces_;
+  if (!open || !has_faces) {
+    offer_again();
+    return;
+  }
+  restoring_.reset();
+  restored_faces_ = nullptr;
+  if (try_keep()) {
+    discard();
+  }
+}
+
+void Recovery::give_back() {
+  if (!restoring_) {
+    return;
+  }
+  frame_.state.scene.give_faces({}, nullptr);
+  frame_.state.runner.resume_from({});
+  if (!taken_.isEmpty()) {
+    QFile::rename(taken_, beside(offered_, "tck"));
+  }
+  restored_faces_ = nullptr;
+  restoring_.reset();
+}
+
+void Recovery::offer_again() {
+  if (restoring_) {
+    give_back();
+    offer();
+  }
 }
 
 void Recovery::discard() {
   frame_.page.recovery_bar()->dismiss();
-  QFile::remove(checkpoint_of(offered_));
+  QFile::remove(beside(offered_, "tck"));
   remove_faces(offered_);
   QFile::remove(offered_);
   offered_.clear();
