@@ -246,7 +246,7 @@ class RecoveryTest : public QObject {
     for (const QString& name : QDir(killed.path()).entryList({"*.json", "*.obj", "*.mtl"})) {
       QVERIFY2(!QFile::exists(folder.filePath(name)), qPrintable(name));
     }
-    QCOMPARE(QDir(folder.path()).entryList(faces_files).size(), 2);  // kept anew
+    QCOMPARE(QDir(folder.path()).entryList(faces_files).size(), 2);  // kept again
   }
 
   void kept_faces_lose_neither_numbers_nor_sides() {

@@ -20,7 +20,7 @@ struct Session;
 /// is killed, the next one offers to continue from there. A solve without a checkpoint is repeated;
 /// in both cases the result has the bits of an uninterrupted solve. Edited faces that the user has
 /// not saved are in an OBJ file beside the session. The files of a session that is continued stay
-/// until its scene is open and kept anew.
+/// until its scene is open and kept again.
 ///
 /// Threads: the main thread only. Several programs may use one folder.
 class Recovery : public QObject {
