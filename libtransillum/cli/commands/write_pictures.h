@@ -21,7 +21,7 @@ struct PictureRequest {
   std::optional<double> exposure = std::nullopt;  ///< if unset, automatic_exposure()
   ToneCurve tone = ToneCurve::linear;
   std::string size_text = {};                      ///< the size given, for messages; may be empty
-  double pixels_per_inch = PictureFigure::screen;  ///< .png, .svg and .pdf files have so many
+  double pixels_per_inch = PictureFigure::screen;  ///< resolution of .png, .svg and .pdf files
   /// Title of .png, .svg and .pdf files; unset: the scene's name, but none in .png files
   std::optional<std::string> title = std::nullopt;
   bool false_colors = false;  ///< .png, .svg and .pdf files have them

@@ -14,7 +14,7 @@ using CairoSurface = std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)
 using CairoContext = std::unique_ptr<cairo_t, void (*)(cairo_t*)>;
 
 /// A surface of `width` by `height` pixels, 0x..rrggbb each.
-/// @param transparent  0xaarrggbb each, colors times alpha
+/// @param transparent  0xaarrggbb each, premultiplied by alpha
 CairoSurface make_surface(int width, int height, bool transparent = false);
 /// A context that measures texts, of sizes without a grid of pixels, and makes paths; not to draw.
 CairoContext make_measuring_context();

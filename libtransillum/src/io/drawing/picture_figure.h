@@ -31,8 +31,8 @@ bool is_figure_file(const std::filesystem::path& path);
 /// @throws InputError
 void check_figure_path(const std::filesystem::path& path);
 /// Writes a figure in the format given by the extension of `path`, completely or not at all: the
-/// picture as an image, the scale as vectors, texts as text; of .png files all is pixels. A picture
-/// with coverage has no paper behind it.
+/// picture as an image, the scale as vectors, texts as text; in .png files everything is in pixels.
+/// A picture with coverage has no paper behind it.
 /// @throws InputError for another ending, a value out of range, or a picture without its pixels;
 /// std::runtime_error if the file cannot be written
 void write_figure(const std::filesystem::path& path, const Picture& picture,
