@@ -256,7 +256,7 @@ void BlockOverlay::close() {
 }
 
 PatchId BlockOverlay::chosen_patch(const PatchBlock& block, std::size_t first_axis) const {
-  // The last strip is that of the outline's edge: beside it, there are no patches.
+  // Beside the diagonal that bounds the outline there are no patches.
   if (axes_[first_axis + 2].chosen < axes_[first_axis].chosen + axes_[first_axis + 1].chosen &&
       block.has_halves()) {
     return no_patch;

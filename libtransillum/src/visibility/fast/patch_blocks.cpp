@@ -14,8 +14,9 @@
 namespace transillum {
 namespace {
 
-/// Most columns and rows of a block: what a query resolves is relative to the size of its fragment.
-constexpr std::int32_t largest_block = 4;
+/// Columns and rows of a block, one more at most: what a query resolves is relative to the size of
+/// its fragment.
+constexpr std::int32_t block_width = 4;
 
 /// A point of a grid: between columns and between rows.
 struct GridPlace {
@@ -76,7 +77,7 @@ struct Block {
 /// Where to cut an edge of n cells into blocks, with both ends. The same from both ends, so that
 /// faces that share the edge are cut in the same points.
 std::vector<std::int32_t> cuts_of(std::int32_t n) {
-  std::int32_t parts = (n + largest_block - 1) / largest_block;
+  std::int32_t parts = std::max(1, (n + block_width / 2) / block_width);
   parts += n % 2 == 1 && parts % 2 == 0 ? 1 : 0;
   std::vector<std::int32_t> cuts;
   const auto place = [&](std::int32_t k) {

@@ -2,7 +2,7 @@
 //
 // Patches that engine fast queries together: the cells of a face that is divided into rows and
 // columns, or patches of one plane that follow each other as such cells do. Input: a scene; output:
-// blocks of up to four by four cells, and a scene that has one patch for each block.
+// blocks of about four by four cells, and a scene that has one patch for each block.
 #pragma once
 
 #include <cstdint>

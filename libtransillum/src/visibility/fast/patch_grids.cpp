@@ -198,10 +198,9 @@ class GridFinder {
       rows.push_back(row_from(next, step, reversed));
       const TriangleRow &row = rows.back(), &before = rows[rows.size() - 2];
       if (row.patches.empty() || row.below != before.above || !have_one_normal(i, row.patches[0])) {
-        return {}
-        followed += row.patches.size();
-        ;
+        return {};
       }
+      followed += row.patches.size();
     }
     PatchGrid grid;
     if (count < 2) {
@@ -233,9 +232,12 @@ class GridFinder {
   /// but for rounding.
   bool is_straight(const PatchGrid& grid) const {
     bool all = true;
-    const Vec3 normal = scene_.patch(grid.patches[0]).normal, origin = scene_.point(grid.points[0]);
+    // The normal of a small patch is less accurate.
+    const Vec3 origin = scene_.point(grid.point(0, 0));
+    const Vec3 normal = normalized(cross(scene_.point(grid.point(grid.columns, 0)) - origin,
+                                         scene_.point(grid.point(0, grid.rows)) - origin));
     for (const PointId p : grid.points) {
-      all = all && std::abs(dot(normal, scene_.point(p) - origin)) <= limit_;
+      all = all && std::abs(dot(normal, scene_.point(p) - origin)) <= 2 * limit_;
     }
     const auto length = [&](std::int32_t whole, std::int32_t k) {
       return grid.halves ? grid.columns - k : whole;

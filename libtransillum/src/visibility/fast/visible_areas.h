@@ -40,9 +40,9 @@ class VisibleAreas {
  public:
   struct Area {
     std::int32_t fragment;
-    double area;          ///< square grid units
-    bool too_small;       ///< the fragment is too small for this area to be accurate
-    std::size_t end = 0;  ///< its parts end here, and begin where the area before it ends
+    double area;            ///< square grid units
+    bool too_small;         ///< the fragment is too small for this area to be accurate
+    std::uint32_t end = 0;  ///< its parts end here, and begin where the area before it ends
   };
   /// The area in which one patch sees another.
   struct PatchArea {
@@ -127,6 +127,11 @@ class VisibleAreas {
   /// Adds what the last subtract() of a view has found.
   template <class View>
   void add(const View& view, std::int32_t fragment, Area area) {
+    if (is_plain()) {
+      fragment_ = fragment;
+      areas_.push_back(area);
+      return;
+    }
     const ProjectedFragments::Fragment& own = at(projected_.fragments, fragment);
     const ProjectedFragments::Fragment& other = at(projected_.fragments, area.fragment);
     if (area.area > 0 && (is_block(own) || is_block(other))) {
@@ -134,7 +139,7 @@ class VisibleAreas {
     } else if (area.area > 0) {
       add_part(view, {patch_of(own), patch_of(other), area.area});
     }
-    area.end = parts_.size();
+    area.end = static_cast<std::uint32_t>(parts_.size());
     areas_.push_back(area);
   }
 
@@ -142,12 +147,21 @@ class VisibleAreas {
   /// Calls visit(part, moments) for each part of area k; moments is null if there are none.
   template <class Visit>
   void for_each_part(std::size_t k, Visit visit) const {
+    if (is_plain()) {
+      visit(PatchArea{at(projected_.fragments, fragment_).patch,
+                      at(projected_.fragments, areas_[k].fragment).patch, areas_[k].area},
+            nullptr);
+      return;
+    }
     for (std::size_t p = k == 0 ? 0 : areas_[k - 1].end; p < areas_[k].end; ++p) {
       visit(parts_[p], moments_ ? &part_moments_[p] : nullptr);
     }
   }
 
  private:
+  /// Whether each area has one part, without moments: parts are not stored.
+  bool is_plain() const { return blocks_ == nullptr && !moments_; }
+
   /// Parts below this, relative to the area of a patch, are the rounding of lines.
   static constexpr double negligible = 0x1p-46;
 
@@ -238,6 +252,7 @@ class VisibleAreas {
   const PatchBlocks* blocks_;
   std::optional<FragmentMoments> moments_;
   std::optional<BlockOverlay> overlay_;
+  std::int32_t fragment_ = 0;  ///< the one of the query, if is_plain()
   std::vector<Area> areas_;
   std::vector<PatchArea> parts_;
   std::vector<TransferMoments> part_moments_;  ///< for each part, if there are moments

@@ -253,7 +253,7 @@ void ProjectedFragments::project(const Scene& scene, const BspTree& tree,
   scene_ = &scene;
   omega_ = omega;
   median_area_ = outlines.median_area;
-  smallest_part_ = &outlines.smallest_part;
+  smallest_part_ = outlines.smallest_part.empty() ? nullptr : &outlines.smallest_part;
   grid.project(scene, tree, omega, cancellation);
   boxes.clear();
   fragments.clear();

@@ -160,7 +160,7 @@ struct ProjectedFragments {
   }
   /// FragmentOutlines::smallest_part of a patch.
   double smallest_part(PatchId patch) const {
-    return smallest_part_->empty() ? 1 : at(*smallest_part_, patch);
+    return smallest_part_ == nullptr ? 1 : at(*smallest_part_, patch);
   }
 
   /// Corner k of a fragment as a corner of its outline. The outline of a back-facing fragment is
@@ -193,7 +193,7 @@ struct ProjectedFragments {
   std::vector<FragmentOutlines::Corner> changed_corners_;
   Vec3 omega_;
   double median_area_ = 0;  ///< median area of the patches, square meters
-  const std::vector<double>* smallest_part_ = nullptr;
+  const std::vector<double>* smallest_part_ = nullptr;  ///< null: all are 1
 
   void prefetch(const FragmentOutlines& outlines, const std::vector<FragmentId>& order,
                 std::size_t index) const;
