@@ -112,7 +112,7 @@ const std::vector<Refusal> invalid_calls{
      "--size: 5cm is too small for m.pdf: its title and legend take 12.5cm"},
     {{"map", "furnace", "--direction", "0,0,1", "--engine", "zbuffer", "--size", "15cm", "--out",
       "m.svg"},
-     "--size: 15cm is too small for m.svg: its title and legend take 16cm"},
+     "--size: 15cm is too small for m.svg: its title and legend take 15.9cm"},
     {{"map", "furnace", "--direction", "0,0,1", "--size", "0cm", "--out", "m.pdf"},
      "--size: \"0\""},
     {{"map", "furnace", "--direction", "0,0,1", "--out", "/no/such/folder/m.svg"},

@@ -125,6 +125,12 @@ void add_pixel_options(CLI::App& command, MapCall& call) {
   command.add_flag("--difference", call.difference, "mark pixels that differ from the exact map");
 }
 
+/// Three digits of a number, rounded up or down, so that a limit that is printed keeps the limit.
+std::string three_digits(double x, bool up) {
+  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2);
+  return fmt::format("{:.3g}", unit * (up ? std::ceil(x / unit) : std::floor(x / unit)));
+}
+
 /// The title and the legend of a figure take 470 pixels, or 600 with the legend of pixels.
 void check_centimeters(const MapCall& call, const std::string& file) {
   if (!call.centimeters || !is_map_picture(file)) {
@@ -132,18 +138,17 @@ void check_centimeters(const MapCall& call, const std::string& file) {
   }
   const bool is_figure = !is_screen_picture(file);
   const double pixel = 2.54 / (is_figure ? PictureFigure::screen : printed_pixels_per_inch);
-  const double least = !is_figure        ? pixel * MapPictureOptions::smallest_size
-                       : call.is_exact() ? 12.5
-                                         : 16;
-  const double most = pixel * MapPictureOptions::largest_size;
-  if (*call.centimeters < least) {
-    throw InputError(fmt::format("--size: {:g}cm is too small for {}: {} {:.3g}cm",
-                                 *call.centimeters, file,
-                                 is_figure ? "its title and legend take" : "the least is", least));
+  const int least = !is_figure ? MapPictureOptions::smallest_size : call.is_exact() ? 470 : 600;
+  const int most = MapPictureOptions::largest_size;
+  const double size = std::round(*call.centimeters / pixel);
+  if (size < least) {
+    throw InputError(fmt::format("--size: {:g}cm is too small for {}: {} {}cm", *call.centimeters,
+                                 file, is_figure ? "its title and legend take" : "the least is",
+                                 three_digits(pixel * least, true)));
   }
-  if (*call.centimeters > most) {
-    throw InputError(fmt::format("--size: {:g}cm is too large for {}: the most is {:.3g}cm",
-                                 *call.centimeters, file, most));
+  if (size > most) {
+    throw InputError(fmt::format("--size: {:g}cm is too large for {}: the most is {}cm",
+                                 *call.centimeters, file, three_digits(pixel * most, false)));
   }
 }
 
