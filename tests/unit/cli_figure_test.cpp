@@ -39,6 +39,7 @@ Pixels read_pixels(const std::string& path) {
   image.format = PNG_FORMAT_RGBA;
   std::vector<unsigned char> bytes(PNG_IMAGE_SIZE(image));
   EXPECT_NE(png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr), 0) << image.message;
+  EXPECT_EQ(image.warning_or_error, 0u) << image.message;
   Pixels pixels{static_cast<int>(image.width), static_cast<int>(image.height), {}};
   for (std::size_t k = 0; k + 3 < bytes.size(); k += 4) {
     pixels.colors.push_back({bytes[k], bytes[k + 1], bytes[k + 2], bytes[k + 3]});
@@ -160,6 +161,42 @@ TEST(CliFigure, TransparentMapsHaveNoBackground) {
   EXPECT_THAT(page_of(read_file(folder / "clear.pdf")), Not(HasSubstr("1 1 1 rg")));
 }
 
+TEST(CliFigure, PngsOfMapsHaveTitlesInAnyLanguage) {
+  const TemporaryFolder folder;
+  const auto text_of = [&](const std::string& title) {
+    expect_success(map_call + Arguments{"--size", "400", "--title", title, "-o", folder / "m.png"});
+    read_pixels(folder / "m.png");
+    return read_file(folder / "m.png");
+  };
+  using namespace std::string_literals;
+  EXPECT_THAT(text_of("plain"), HasSubstr("tEXtTitle\0plain"s));
+  EXPECT_THAT(text_of("Gr\u00f6\u00dfe"), HasSubstr("iTXtTitle\0\0\0\0\0Gr\u00f6\u00dfe"s));
+  EXPECT_THAT(text_of("a\x01"
+                      "b\nc"),
+              HasSubstr("tEXtTitle\0a b c"s));
+  EXPECT_THAT(text_of("a\xff"), HasSubstr("iTXtTitle\0\0\0\0\0a\ufffd"s));
+  expect_refused(map_call + Arguments{"--title", "", "-o", folder / "m.png"},
+                 "--title: the value is empty");
+}
+
+TEST(CliFigure, TitlesAreCutByCharacters) {
+  const TemporaryFolder folder;
+  std::string title;
+  for (int k = 0; k < 20; ++k) {
+    title += "\u00fc";
+  }
+  expect_success(map_call + Arguments{"--size", "600", "--title", title, "-o", folder / "m.svg"});
+  EXPECT_THAT(read_file(folder / "m.svg"), HasSubstr('>' + title + "</text>"));
+}
+
+TEST(CliFigure, RadianceIsNeverTransparent) {
+  const TemporaryFolder folder;
+  const Arguments call = picture_of(folder) + Arguments{"--transparent", "-o", folder / "p.exr"};
+  expect_refused(call, "--transparent: used only with a .png, .svg or .pdf file");
+  expect_refused(call + Arguments{"-o", folder / "p.png"},
+                 "--transparent: not used with .exr and .pfm files");
+}
+
 TEST(CliFigure, PrintedPngsSayHowLargeAPixelIs) {
   const TemporaryFolder folder;
   const Arguments call = picture_of(folder);
@@ -167,7 +204,9 @@ TEST(CliFigure, PrintedPngsSayHowLargeAPixelIs) {
   expect_success(call + Arguments{"--size", "1.27x1.27cm", "--title", "T", "-o", folder / "t.png"});
   expect_success(map_call + Arguments{"--size", "2.54cm", "-o", folder / "m.png"});
   for (const char* name : {"p.png", "t.png", "m.png"}) {
-    EXPECT_THAT(read_file(folder / name), HasSubstr(printed_size)) << name;
+    const std::string png = read_file(folder / name);
+    EXPECT_THAT(png, HasSubstr(printed_size)) << name;
+    EXPECT_LT(png.find(printed_size), png.find("IDAT")) << name;
   }
   EXPECT_EQ(read_pixels(folder / "p.png").width, 150);
   // Letters of a printed title are as high as on a screen, in inches.
@@ -194,7 +233,10 @@ TEST(CliFigure, SizesThatCannotBeWrittenAreRefusedBeforeASolve) {
   expect_refused(map + Arguments{"--size", "900cm"}, "--size: 900cm is too large for");
   expect_refused(map + Arguments{"--size", "1cm"}, "--size: 1cm is too small for");
   expect_refused(map_call + Arguments{"-o", folder / "m.svg", "--size", "300cm"},
-                 "the most is 217cm");
+                 "the most is 216cm");
+  // Limits that are named are kept.
+  expect_refused(map + Arguments{"--size", "69.4cm"}, "the most is 69.3cm");
+  expect_refused(map + Arguments{"--size", "1.68cm"}, "the least is 1.7cm");
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 

@@ -154,7 +154,7 @@ class Canvas {
     }
   }
 
-  /// Alpha, and colors times alpha.
+  /// Alpha, and colors premultiplied by alpha.
   std::array<float, 4> finished(const Pixel& pixel) const {
     constexpr float line_opacity = 0.6F;
     const float ground = std::max(1 - pixel.covered, 0.0F);
@@ -185,9 +185,12 @@ class Canvas {
   std::vector<Pixel> pixels_;
 };
 
-/// A chunk of text of a PNG file.
+/// A chunk of text of a PNG file: Latin-1 where ASCII suffices, else UTF-8, without compression.
 std::string text_chunk(const std::string& key, const std::string& text) {
-  return png_chunk("tEXt", key + '\0' + text);
+  const bool is_ascii = std::all_of(text.begin(), text.end(),
+                                    [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+  return is_ascii ? png_chunk("tEXt", key + '\0' + text)
+                  : png_chunk("iTXt", key + std::string(5, '\0') + text);
 }
 
 /// Title and description as chunks of text.
@@ -287,7 +290,7 @@ void write_map_png(std::ostream& out, const Scene& scene, const VisibilityMap& m
   }
   std::ostringstream png;
   write_png(png, picture.get());
-  const std::string name = options.title.value_or("Visibility map of " + scene.name());
+  const std::string name = clean_text(options.title.value_or("Visibility map of " + scene.name()));
   out << png_with_chunks(png.str(), png_size_chunk(options.pixels_per_inch) +
                                         map_description(name, map, layout.transform.scale));
 }

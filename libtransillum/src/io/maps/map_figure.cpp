@@ -33,14 +33,15 @@ std::string shortened(const std::string& text, std::size_t max_size) {
   return "\u2026" + clean.substr(begin);
 }
 
-/// A title of at most about `max_size` bytes: the begin of a longer one, before an ellipsis.
-std::string cut(const std::string& text, std::size_t max_size) {
-  std::string clean = clean_text(text);
-  if (clean.size() > max_size) {
-    while (max_size > 0 && (clean[max_size] & 0xc0) == 0x80) {
-      --max_size;  // inside a character
+/// A title of at most `most` characters: the begin of a longer one, before an ellipsis.
+std::string cut(const std::string& text, std::size_t most) {
+  const std::string clean = clean_text(text);
+  std::size_t characters = 0;
+  for (std::size_t k = 0; k < clean.size(); ++k) {
+    const bool begins = (clean[k] & 0xc0) != 0x80;
+    if (begins && ++characters > most) {
+      return clean.substr(0, k) + "\u2026";
     }
-    clean = clean.substr(0, max_size) + "\u2026";
   }
   return clean;
 }
