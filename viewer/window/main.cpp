@@ -30,6 +30,7 @@
 #include "window/command_line.h"
 #include "window/files/file_actions.h"
 #include "window/files/lesson_export.h"
+#include "window/files/recovery.h"
 #include "window/files/screenshot.h"
 #include "window/main_window.h"
 #include "window/vertical_control.h"
@@ -172,8 +173,12 @@ void open_arguments(MainWindow& window, const CommandLine& command_line) {
   }
 }
 
-/// Closes the window; prints where unsaved notes are, or why they could not be saved.
+/// Closes the window, and leaves unsaved faces to the next program; prints where unsaved notes are,
+/// or why they could not be saved.
 void end_by_signal(MainWindow& window, int number) {
+  if (auto* recovery = window.findChild<Recovery*>()) {
+    recovery->leave_faces();
+  }
   try {
     if (const QString notes = window.close_without_questions(); !notes.isEmpty()) {
       print_error(QStringLiteral("the notes are in %1").arg(notes));
