@@ -75,8 +75,8 @@ class Recovery : public QObject {
   QString offered_;  ///< file of the session that is offered; may be empty
   /// Held from restore() until the session is open or given back; null at other times.
   std::unique_ptr<QLockFile> restoring_;
-  QString taken_;               ///< taken_over() for restoring_
-  std::string restored_scene_;  ///< of restoring_
+  QString taken_;               ///< taken_over(), for restoring_
+  std::string restored_scene_;  ///< the scene of that session
   std::shared_ptr<const SceneDescription> restored_faces_;
   bool loads_ = false;                                  ///< a scene
   std::shared_ptr<const SceneDescription> kept_faces_;  ///< in faces_file(); null without one
