@@ -296,7 +296,7 @@ void SettingsPanel::add_limits() {
   max_patch_area_->setPlaceholderText(tr("Faces not divided"));
   auto* rows = new SettingRows;
   rows->add(tr("Stop at"), stop_at_, stop_at_->toolTip());
-  rows->add(tr("Limit"), stop_value_);
+  rows->add(tr("Limit"), stop_value_, tr("Value at which the iterations end."));
   rows->add(tr("Patch area, m²"), max_patch_area_, max_patch_area_->toolTip());
   add_section(limits_ = new Fold("limits_section", tr("Limits"), rows));
 }
