@@ -249,7 +249,8 @@ PairMoments moments_of(const Transfers& transfers) {
   return moments;
 }
 
-/// The largest moment of `a` less that of `b`, over the area of the smaller patch.
+/// The largest difference between a moment in `a` and the same moment in `b`, over the area of the
+/// smaller patch. Pairs that `b` lacks have moments of 0.
 double difference(const Scene& scene, const PairMoments& a, const PairMoments& b) {
   double largest = 0;
   for (const auto& [pair, moments] : a) {

@@ -1,9 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// What the patches of one block see of those of another, from what the block sees of the other. The
-// area that both share on the plane is divided by the lines of both grids, one after another: its
-// boundary is cut into two closed parts, which have the points on the line in common to the last
-// bit. So no area is lost, however rounding has moved the points.
+// Divides the area in which one block sees another among their patches. Input: the boundary of the
+// area on the plane, from a visibility query. The lines of both grids cut it one after another,
+// each into two closed boundaries, which have the points on the line in common to the last bit. So
+// no area is lost, however rounding has moved the points.
 #pragma once
 
 #include <array>

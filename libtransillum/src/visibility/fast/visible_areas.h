@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// What one query of engine fast has found: the areas in which its fragment sees others, and the
-// parts of these areas by patch, where fragments stand for blocks of patches.
+// The result of one visibility query of engine fast: the areas in which its fragment sees other
+// fragments. Where fragments are blocks of patches, each area is divided among the patches.
 #pragma once
 
 #include <algorithm>

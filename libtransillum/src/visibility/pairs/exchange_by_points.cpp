@@ -275,8 +275,9 @@ void ExchangeFinder::add_moments(const FacingPolygons& facing, const Numbers& bl
   const LinearBasis& other = sampled.p_is_sampled ? of_q : of_p;
   PointView view(sampled.other, polygons);
   for_each_cell(sampled, polygons, [&](const Corners& cell, double cell_size) {
-    // The rule of three points is exact for products of two functions; that of one is not. Past
-    // nothing, what the points see has no kinks: half as many in a row are enough.
+    // The rule of three points is exact for products of two linear functions, the rule of one point
+    // is not. Without blockers, the values at the points have no kinks: half as many points in a
+    // row are enough.
     const int divisions = divisions_of(blockers.empty() ? cell_size / 2 : cell_size);
     for_points_of(cell, std::max(1, divisions), [&](const Vec3& x, double weight) {
       const PointView::Moments seen = view.moments(x, sampled.normal, tick);
