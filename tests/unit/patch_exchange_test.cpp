@@ -112,6 +112,52 @@ TEST(PatchExchange, BehindAFloatingBlockerConvergesQuadratically) {
   }
 }
 
+/// A board of which only a strip along an edge sees another, or does not: rows of `pairs` find
+/// it, and errors say that points may have missed it.
+void expect_strip_is_found(const std::vector<Vec3>& board, const std::vector<Vec3>& other,
+                           const std::vector<Vec3>& blocker) {
+  Sketch sketch;
+  const int gray = sketch.material(0.5, 0);
+  sketch.face(board, gray).face(other, gray).face(blocker, gray);
+  const auto scene = sketch.scene({.two_sided = true});
+  // The edge of the blocker that matters runs along x, through y = 0.1, z = 0, and is as good as
+  // endless: a plane through it and a point cuts off what is hidden.
+  constexpr int columns = 40, rows = 4000;
+  double exact = 0;
+  for (int i = 0; i < columns; ++i) {
+    for (int k = 0; k < rows; ++k) {
+      const Vec3 along = board[1] - board[0], up = board[3] - board[0];
+      const Vec3 x = board[0] + (i + 0.5) / columns * along + (k + 0.5) / rows * up;
+      const Vec3 normal = normalized(Vec3{0, x.z, 0.1});  // of the plane, upward
+      const Corners seen = clipped(other, {normal, dot(normal, x)});
+      exact += seen.empty() ? 0 : point_form_factor(x, {0, 1, 0}, seen) / (columns * rows);
+    }
+  }
+  exact *= scene->patch(0).area;
+  ASSERT_GT(exact, 0);
+  for (const double density : {16.0, 32.0}) {
+    const ExchangeFinder exchange(*scene, {}, density);
+    const double tolerated = std::max(6 * exact, 0.03 * scene->patch(0).area) / (density * density);
+    EXPECT_NEAR(exchange.area_between(0, 2, {}), exact, tolerated) << density;
+    const PatchExchange estimated = exchange(0, 2);
+    EXPECT_LE(std::abs(estimated.area - exact), 2 * std::abs(estimated.error)) << density;
+  }
+}
+
+TEST(PatchExchange, FindsAStripThatSees) {
+  // Over a wall as high as the board.
+  expect_strip_is_found({{.05, 0, -.2}, {-.05, 0, -.2}, {-.05, 0, 0}, {.05, 0, 0}},
+                        {{-4, 1, -.3}, {4, 1, -.3}, {4, 1, .076}, {-4, 1, .078}},
+                        {{-99, .1, -1}, {99, .1, -1}, {99, .1, 0}, {-99, .1, 0}});
+}
+
+TEST(PatchExchange, FindsAStripThatDoesNotSee) {
+  // Over a lower wall.
+  expect_strip_is_found({{.05, 0, -.006}, {-.05, 0, -.006}, {-.05, 0, .2}, {.05, 0, .2}},
+                        {{-4, 1, -.05}, {4, 1, -.06}, {4, 1, .3}, {-4, 1, .3}},
+                        {{-99, .1, -1}, {99, .1, -1}, {99, .1, 0}, {-99, .1, 0}});
+}
+
 /// A lamp in the plane of its ceiling, with the same normal, covers it.
 TEST(PatchExchange, TheBrighterOfCoincidentPatchesIsVisible) {
   Sketch sketch;

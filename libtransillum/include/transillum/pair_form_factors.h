@@ -17,9 +17,9 @@ namespace TRANSILLUM_API transillum {
 /// Options of pair_form_factors().
 struct PairOptions {
   /// Number of points along a patch as large as its distance from the other, where blockers hide
-  /// part of the one from the other; 1 … EngineOptions::largest_points. Where a
-  /// quarter of them finds too different a value, up to eight times as many are taken. Other pairs
-  /// need none.
+  /// part of the one from the other; 1 … EngineOptions::largest_points. Where a quarter of them
+  /// finds too different a value, or points near corners do, more are taken where they matter.
+  /// Other pairs need none.
   int points = EngineOptions::default_points;
   std::uint64_t memory = 0;  ///< limit for the form factors, bytes; 18 per nonzero entry while they
                              ///< are assembled, with moments 162; 0: a quarter of the machine's

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "transillum/at.h"
+#include "visibility/pairs/adaptive_points.h"
 #include "visibility/pairs/patch_exchange.h"
 #include "visibility/pairs/point_view.h"
 #include "visibility/pairs/refined_cells.h"
@@ -75,6 +76,14 @@ double seen_part(const PointSums& sums, double exact) {
   return part > nearly_all ? std::min(part, 1.0) * exact : std::min(sums.seen, exact);
 }
 
+/// Whether points see so little, or nearly everything, that they may have missed a strip along an
+/// edge of their cell, from which alone the other polygon is seen, or hidden.
+bool may_miss_strip(const PointSums& sums) {
+  constexpr double next_to_nothing = 0.01;
+  return sums.seen <= next_to_nothing * sums.free ||
+         sums.free - sums.seen <= next_to_nothing * sums.free;
+}
+
 }  // namespace
 
 /// Calls visit(cell, size) for the parts of the sampled polygon within which what it sees of the
@@ -119,18 +128,26 @@ class ExchangeFinder::PointQuadrature {
     return sums;
   }
 
-  /// The largest error where no point of a cell sees the other polygon: the light that its corners
-  /// see may reach to the next points.
-  double unseen(Outline cell, int divisions) {
+  /// Sums over points near the corners of a cell.
+  PointSums near_corners(Outline cell) {
     constexpr double off_edges = 1.0 / 64;  // corners often lie on blockers
     const Vec3 middle = middle_of(cell);
-    double at_corners = 0;
+    const double weight = norm(area_vector(cell)) / static_cast<double>(cell.size());
+    PointSums sums;
     for (const Vec3& corner : cell) {
-      at_corners +=
-          view_.form_factor(corner + off_edges * (middle - corner), sampled_.normal, query_.tick);
+      const Vec3 x = corner + off_edges * (middle - corner);
+      sums.seen += weight * view_.form_factor(x, sampled_.normal, query_.tick);
+      sums.free += weight * free_view_.form_factor(x, sampled_.normal);
     }
-    return at_corners * norm(area_vector(cell)) /
-           (3 * static_cast<double>(cell.size()) * std::max(divisions, 1));
+    return sums;
+  }
+
+  /// The largest error of the exchange `exact` of a cell, less its part by points, where these may
+  /// have missed a strip: what corners see may reach to the next points. May be negative.
+  double missed_strip(Outline cell, int divisions, const PointSums& sums, double exact) {
+    const PointSums near = near_corners(cell);
+    const auto part_of = [](const PointSums& s) { return s.free > 0 ? s.seen / s.free : 0; };
+    return exact * (part_of(near) - part_of(sums)) / (3 * std::max(divisions, 1));
   }
 
  private:
@@ -175,6 +192,10 @@ void ExchangeFinder::add_partial(const FacingPolygons& facing, const Numbers& bl
     const int divisions = divisions_of(cell_size);
     const PointSums sums = by_points(cell, divisions);
     const double exact = refined.exact(cell);
+    if (!query.estimate) {
+      exchange.area += seen_by_enough(by_points, refined, cell, divisions, sums, exact, smaller);
+      return;
+    }
     if (refined.misses(sums.free, exact)) {
       const RefinedCells::Exchange found = refined(cell);
       exchange.area += found.area;
@@ -182,21 +203,20 @@ void ExchangeFinder::add_partial(const FacingPolygons& facing, const Numbers& bl
       add_moments_of(found, exchange);
       return;
     }
-    if (!query.estimate) {
-      exchange.area += seen_by_enough(by_points, cell, divisions, sums, exact, smaller);
-      return;
-    }
     const double area = seen_part(sums, exact);
     exchange.area += area;
+    const double strip =
+        may_miss_strip(sums) ? by_points.missed_strip(cell, divisions, sums, exact) : 0;
     if (sums.seen == 0) {
-      exchange.error += by_points.unseen(cell, divisions);
+      exchange.error += strip;
       return;
     }
     // Half the distance between points leaves a quarter of the error, and takes three quarters
     // away.
     const PointSums half = divisions == 0 ? PointSums() : by_points(cell, divisions / 2);
-    exchange.error +=
+    const double error =
         divisions == 0 ? cell_size * cell_size * sums.seen : (sums.seen - half.seen) / 3;
+    exchange.error += std::abs(strip) > std::abs(error) ? strip : error;
     if (query.receiver != nullptr) {
       if (divisions < moment_divisions_) {
         add_moments_of(area, by_points(cell, moment_divisions_),
@@ -208,38 +228,46 @@ void ExchangeFinder::add_partial(const FacingPolygons& facing, const Numbers& bl
   });
 }
 
-/// The exchange of a cell past blockers, by more points where fewer see another part of it.
+/// The exchange of a cell past blockers, by more points where fewer do not suffice.
 /// @param sums by `divisions`
 /// @param exact without blockers
 /// @param smaller area of the smaller of both polygons, whose form factor is the larger
-double ExchangeFinder::seen_by_enough(PointQuadrature& by_points, const Corners& cell,
-                                      int divisions, const PointSums& sums, double exact,
-                                      double smaller) const {
+double ExchangeFinder::seen_by_enough(PointQuadrature& by_points, RefinedCells& refined,
+                                      const Corners& cell, int divisions, const PointSums& sums,
+                                      double exact, double smaller) const {
   // Estimated errors, with the usual density of 32: 0.2 % of what is seen, or a form factor of
   // 1e-5.
   constexpr double tolerated_part = 2, tolerated_factor = 1e-2;
-  constexpr int most_doublings = 3;
   const double scale = 1 / (density_ * density_), least = scale * tolerated_factor * smaller;
-  const double most_divisions = 4 * std::max(density_, 1.0);
-  double seen = seen_part(sums, exact);
-  const auto is_enough = [&](double fewer, double more) {
-    return more > 0 || fewer > 0
-               ? std::abs(more - fewer) <= 3 * std::max(scale * tolerated_part * more, least)
-               : by_points.unseen(cell, divisions) <= 3 * least;
+  const auto tolerated = [&](double seen) {
+    return std::max(scale * tolerated_part * seen, least);
   };
-  // A single point is compared with three, others with about a quarter of them.
-  bool is_known = exact <= least;
-  if (!is_known && divisions > 0) {
-    is_known = is_enough(seen_part(by_points(cell, divisions / 2), exact), seen);
+  const double seen = seen_part(sums, exact);
+  if (exact <= least) {
+    return seen;
   }
-  for (int doublings = 0; !is_known && doublings < most_doublings && divisions < most_divisions;
-       ++doublings) {
-    divisions = std::max(1, 2 * divisions);
-    const double more = seen_part(by_points(cell, divisions), exact);
-    is_known = is_enough(seen, more);
-    seen = more;
+  const bool strip_matters =
+      may_miss_strip(sums) &&
+      std::abs(by_points.missed_strip(cell, divisions, sums, exact)) > 3 * tolerated(seen);
+  if (!strip_matters && (divisions > 0 || sums.seen == 0)) {
+    // About a quarter of the points have four times the error.
+    const double fewer = seen_part(by_points(cell, divisions / 2), exact);
+    const double missed = sums.free > 0 ? std::abs(exact / sums.free - 1) * seen : 0;
+    if (std::abs(seen - fewer) / 3 + missed <= tolerated(seen)) {
+      return seen;
+    }
   }
-  return seen;
+  AdaptivePoints adaptive(
+      [&](Outline triangle) {
+        const PointSums inside = by_points(triangle, 1), near = by_points.near_corners(triangle);
+        const double free = refined.exact(triangle);
+        const auto seen_of = [&](const PointSums& found) {
+          return found.free > 0 ? std::min(1.0, found.seen / found.free) * free : 0;
+        };
+        return AdaptivePoints::Seen{seen_of(inside), seen_of(near)};
+      },
+      tolerated);
+  return std::min(adaptive(cell, divisions), exact);
 }
 
 /// Adds the exchange of two polygons with nothing between: in closed form, but for its moments.

@@ -41,6 +41,7 @@ struct LampPolygon {
 };
 
 struct PointSums;
+class RefinedCells;
 struct SampledPolygon;
 
 /// Form factors of single pairs of patches, with blockers between them.
@@ -164,8 +165,8 @@ class ExchangeFinder {
                    const LinearBasis& of_q, const std::function<void()>& tick,
                    TransferMoments& sum) const;
   class PointQuadrature;
-  double seen_by_enough(PointQuadrature& by_points, const Corners& cell, int divisions,
-                        const PointSums& sums, double exact, double smaller) const;
+  double seen_by_enough(PointQuadrature& by_points, RefinedCells& refined, const Corners& cell,
+                        int divisions, const PointSums& sums, double exact, double smaller) const;
   template <class Visit>
   void for_each_cell(const SampledPolygon& sampled, const std::vector<Corners>& blockers,
                      Visit visit) const;
