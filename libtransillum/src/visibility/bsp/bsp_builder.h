@@ -36,12 +36,10 @@ class BspBuilder {
   };
 
   void add_pieces();
-  void add_piece(const Piece& piece, const BspTree::Plane& plane);
   void add_polygon(PatchId patch, std::span<const PointId> points);
-  void add_triangle(PatchId patch, const std::array<PointId, 3>& points, BspTree::Plane plane);
+  void add_triangle(PatchId patch, const std::array<PointId, 3>& points);
   bool contains(const BspTree::Plane& plane, std::span<const PointId> points) const;
   BspTree::Plane plane_of(std::span<const PointId> points) const;
-  BspTree::Plane plane_of(std::span<const Piece> pieces) const;
   void check_cancellation();
   LineId line_between(PointId a, PointId b);
   PolygonSet take_polygons();

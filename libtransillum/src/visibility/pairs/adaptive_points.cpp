@@ -27,27 +27,26 @@ std::array<std::array<Vec3, 3>, 2> halves_of(const std::array<Vec3, 3>& triangle
 }  // namespace
 
 double AdaptivePoints::operator()(Outline polygon, int divisions) {
-  constexpr std::size_t most_triangles = 4096;
+  constexpr std::size_t most_parts = 4096;
   constexpr int most_rounds = 24;
-  // With smooth functions, the rule of three points has a far smaller error than the rule of
-  // corners.
+  // Of smooth functions, the rule of three points has a far smaller error than that of corners.
   constexpr double doubt_per_error = 8;
-  triangles_.clear();
+  parts_.clear();
   const int bisections = static_cast<int>(std::lround(2 * std::log2(std::max(divisions, 1))));
   for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
     add({polygon[0], polygon[k], polygon[k + 1]}, bisections);
   }
   // Points and corners may agree by chance.
-  for (std::size_t k = triangles_.size(); k-- > 0;) {
+  for (std::size_t k = parts_.size(); k-- > 0;) {
     divide(k);
   }
   for (int round = 0;; ++round) {
     double seen = 0, doubt = 0;
-    for (const Triangle& each : triangles_) {
-      seen += each.seen;
-      doubt += each.doubt;
+    for (const Part& part : parts_) {
+      seen += part.seen;
+      doubt += part.doubt;
     }
-    if (round == most_rounds || triangles_.size() > most_triangles ||
+    if (round == most_rounds || parts_.size() > most_parts ||
         doubt <= doubt_per_error * tolerated_(seen)) {
       return seen;
     }
@@ -63,39 +62,38 @@ void AdaptivePoints::add(const std::array<Vec3, 3>& triangle, int bisections) {
     return;
   }
   const Seen seen = see_(triangle);
-  triangles_.push_back({triangle, seen.by_points, std::abs(seen.by_points - seen.by_corners)});
+  parts_.push_back({triangle, seen.by_points, std::abs(seen.by_points - seen.by_corners)});
 }
 
-/// Replaces a triangle by its halves. They are as doubtful as dividing it has changed the sum.
+/// Replaces a part by its halves. They are as doubtful as dividing it has changed the sum.
 void AdaptivePoints::divide(std::size_t number) {
-  const Triangle whole = triangles_[number];
+  const Part whole = parts_[number];
   const auto halves = halves_of(whole.corners);
   add(halves[0], 0);
-  triangles_[number] = triangles_.back();
-  triangles_.pop_back();
+  parts_[number] = parts_.back();
+  parts_.pop_back();
   add(halves[1], 0);
-  Triangle &a = triangles_[number], &b = triangles_.back();
+  Part &a = parts_[number], &b = parts_.back();
   const double change = std::abs(a.seen + b.seen - whole.seen) / 2;
   a.doubt = std::max(a.doubt, change);
   b.doubt = std::max(b.doubt, change);
 }
 
-/// Divides the triangles that most of the doubt is about.
+/// Divides the parts that most of the doubt is about.
 /// @param doubt of all
 void AdaptivePoints::divide_doubtful(double doubt) {
   constexpr double most = 0.75;
-  std::vector<std::size_t> order(triangles_.size());
+  std::vector<std::size_t> order(parts_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return triangles_[a].doubt != triangles_[b].doubt ? triangles_[a].doubt > triangles_[b].doubt
-                                                      : a < b;
+    return parts_[a].doubt != parts_[b].doubt ? parts_[a].doubt > parts_[b].doubt : a < b;
   });
   double divided = 0;
   for (const std::size_t k : order) {
     if (divided >= most * doubt) {
       break;
     }
-    divided += triangles_[k].doubt;
+    divided += parts_[k].doubt;
     divide(k);
   }
 }
