@@ -128,7 +128,7 @@ void expect_strip_is_found(const std::vector<Vec3>& board, const std::vector<Vec
     for (int k = 0; k < rows; ++k) {
       const Vec3 along = board[1] - board[0], up = board[3] - board[0];
       const Vec3 x = board[0] + (i + 0.5) / columns * along + (k + 0.5) / rows * up;
-      const Vec3 normal = normalized(Vec3{0, x.z, 0.1});  // of the plane, upward
+      const Vec3 normal = normalized(Vec3{0, x.z, 0.1});  // upward
       const Corners seen = clipped(other, {normal, dot(normal, x)});
       exact += seen.empty() ? 0 : point_form_factor(x, {0, 1, 0}, seen) / (columns * rows);
     }

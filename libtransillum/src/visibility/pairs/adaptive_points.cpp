@@ -27,26 +27,27 @@ std::array<std::array<Vec3, 3>, 2> halves_of(const std::array<Vec3, 3>& triangle
 }  // namespace
 
 double AdaptivePoints::operator()(Outline polygon, int divisions) {
-  constexpr std::size_t most_parts = 4096;
+  constexpr std::size_t most_triangles = 4096;
   constexpr int most_rounds = 24;
-  // Of smooth functions, the rule of three points has a far smaller error than that of corners.
+  // With smooth functions, the rule of three points has a far smaller error than the rule of
+  // corners.
   constexpr double doubt_per_error = 8;
-  parts_.clear();
+  triangles_.clear();
   const int bisections = static_cast<int>(std::lround(2 * std::log2(std::max(divisions, 1))));
   for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
     add({polygon[0], polygon[k], polygon[k + 1]}, bisections);
   }
   // Points and corners may agree by chance.
-  for (std::size_t k = parts_.size(); k-- > 0;) {
+  for (std::size_t k = triangles_.size(); k-- > 0;) {
     divide(k);
   }
   for (int round = 0;; ++round) {
     double seen = 0, doubt = 0;
-    for (const Part& part : parts_) {
-      seen += part.seen;
-      doubt += part.doubt;
+    for (const Triangle& each : triangles_) {
+      seen += each.seen;
+      doubt += each.doubt;
     }
-    if (round == most_rounds || parts_.size() > most_parts ||
+    if (round == most_rounds || triangles_.size() > most_triangles ||
         doubt <= doubt_per_error * tolerated_(seen)) {
       return seen;
     }
@@ -62,38 +63,39 @@ void AdaptivePoints::add(const std::array<Vec3, 3>& triangle, int bisections) {
     return;
   }
   const Seen seen = see_(triangle);
-  parts_.push_back({triangle, seen.by_points, std::abs(seen.by_points - seen.by_corners)});
+  triangles_.push_back({triangle, seen.by_points, std::abs(seen.by_points - seen.by_corners)});
 }
 
-/// Replaces a part by its halves. They are as doubtful as dividing it has changed the sum.
+/// Replaces a triangle by its halves. They are as doubtful as dividing it has changed the sum.
 void AdaptivePoints::divide(std::size_t number) {
-  const Part whole = parts_[number];
+  const Triangle whole = triangles_[number];
   const auto halves = halves_of(whole.corners);
   add(halves[0], 0);
-  parts_[number] = parts_.back();
-  parts_.pop_back();
+  triangles_[number] = triangles_.back();
+  triangles_.pop_back();
   add(halves[1], 0);
-  Part &a = parts_[number], &b = parts_.back();
+  Triangle &a = triangles_[number], &b = triangles_.back();
   const double change = std::abs(a.seen + b.seen - whole.seen) / 2;
   a.doubt = std::max(a.doubt, change);
   b.doubt = std::max(b.doubt, change);
 }
 
-/// Divides the parts that most of the doubt is about.
+/// Divides the triangles that most of the doubt is about.
 /// @param doubt of all
 void AdaptivePoints::divide_doubtful(double doubt) {
   constexpr double most = 0.75;
-  std::vector<std::size_t> order(parts_.size());
+  std::vector<std::size_t> order(triangles_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return parts_[a].doubt != parts_[b].doubt ? parts_[a].doubt > parts_[b].doubt : a < b;
+    return triangles_[a].doubt != triangles_[b].doubt ? triangles_[a].doubt > triangles_[b].doubt
+                                                      : a < b;
   });
   double divided = 0;
   for (const std::size_t k : order) {
     if (divided >= most * doubt) {
       break;
     }
-    divided += parts_[k].doubt;
+    divided += triangles_[k].doubt;
     divide(k);
   }
 }

@@ -28,14 +28,14 @@ class AdaptivePoints {
       : see_(std::move(see)), tolerated_(std::move(tolerated)) {}
 
   /// The exchange of a polygon, m².
-  /// @param divisions parts along the sides of the first triangles, about
+  /// @param divisions by which the first triangles are shorter than the polygon, about
   double operator()(Outline polygon, int divisions);
 
  private:
-  struct Part {
+  struct Triangle {
     std::array<Vec3, 3> corners;
     double seen;   ///< by points
-    double doubt;  ///< by how much it may be wrong, as far as corners and larger parts tell
+    double doubt;  ///< by how much it may be wrong, as far as corners and larger triangles tell
   };
   void add(const std::array<Vec3, 3>& triangle, int bisections);
   void divide(std::size_t number);
@@ -43,7 +43,7 @@ class AdaptivePoints {
 
   See see_;
   Tolerated tolerated_;
-  std::vector<Part> parts_;
+  std::vector<Triangle> triangles_;
 };
 
 }  // namespace transillum
