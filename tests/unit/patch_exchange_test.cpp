@@ -112,8 +112,8 @@ TEST(PatchExchange, BehindAFloatingBlockerConvergesQuadratically) {
   }
 }
 
-/// A board of which only a strip along an edge sees another, or does not: rows of `pairs` find
-/// it, and errors say that points may have missed it.
+/// Two boards of which one sees the other only from a strip along an edge, or from all but a strip:
+/// rows of `pairs` find it, and errors say that points may have missed it.
 void expect_strip_is_found(const std::vector<Vec3>& board, const std::vector<Vec3>& other,
                            const std::vector<Vec3>& blocker) {
   Sketch sketch;

@@ -66,7 +66,7 @@ void AdaptivePoints::add(const std::array<Vec3, 3>& triangle, int bisections) {
   triangles_.push_back({triangle, seen.by_points, std::abs(seen.by_points - seen.by_corners)});
 }
 
-/// Replaces a triangle by its halves. They are as doubtful as dividing it has changed the sum.
+/// Replaces a triangle by its halves. Their doubt is at least the change that dividing it has made.
 void AdaptivePoints::divide(std::size_t number) {
   const Triangle whole = triangles_[number];
   const auto halves = halves_of(whole.corners);

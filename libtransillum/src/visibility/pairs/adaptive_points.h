@@ -28,7 +28,7 @@ class AdaptivePoints {
       : see_(std::move(see)), tolerated_(std::move(tolerated)) {}
 
   /// The exchange of a polygon, m².
-  /// @param divisions by which the first triangles are shorter than the polygon, about
+  /// @param divisions about how many of the first triangles lie side by side along the polygon
   double operator()(Outline polygon, int divisions);
 
  private:

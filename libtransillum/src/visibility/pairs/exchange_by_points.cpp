@@ -142,8 +142,9 @@ class ExchangeFinder::PointQuadrature {
     return sums;
   }
 
-  /// The largest error of the exchange `exact` of a cell, less its part by points, where these may
-  /// have missed a strip: what corners see may reach to the next points. May be negative.
+  /// By how much a cell may exchange more than its points say, or less if negative, where these may
+  /// have missed a strip: what corners see may reach to the next points.
+  /// @param exact without blockers
   double missed_strip(Outline cell, int divisions, const PointSums& sums, double exact) {
     const PointSums near = near_corners(cell);
     const auto part_of = [](const PointSums& s) { return s.free > 0 ? s.seen / s.free : 0; };
