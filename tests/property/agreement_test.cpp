@@ -274,8 +274,8 @@ TEST_P(AgreementDivided, OnDegenerateAndRoundedScenes) {
 }
 INSTANTIATE_TEST_SUITE_P(Tens, AgreementDivided, ::testing::Range(0, 20));
 
-/// Rails that touch the floor but for rounding: which one is in front has to be the same for
-/// blocks.
+/// Rails that touch sleepers but for rounding: which of both is in front has to be the same for
+/// blocks. A plane tilted by rounding once divided the sleepers.
 TEST(AgreementDividedRegression, OnFacesThatTouch) {
   int in_blocks = 0;
   for (const std::uint64_t seed : {1005, 3894}) {

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,11 +24,11 @@ using testing::Sketch;
 
 constexpr double agreed = 1e-10;
 
-/// A room with a block that hovers and a slanted board, so that walls are cut and hidden in part.
+/// A room with a block and a slanted board, so that walls are cut and hidden in part.
 Sketch room() {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
-  sketch.box({0, 0, 0}, {5, 4, 3}, true, gray).box({1, 1, 0.1}, {2, 2.5, 1.2}, false, gray);
+  sketch.box({0, 0, 0}, {5, 4, 3}, true, gray).box({1, 1, 0}, {2, 2.5, 1.2}, false, gray);
   sketch.face({{3, 0.5, 0.5}, {4.5, 1, 0.7}, {4.5, 3, 2.2}, {3, 2.5, 2}}, gray);
   return sketch;
 }
@@ -110,7 +109,8 @@ TEST(PatchBlocks, HoldEachPatchOfADividedRoomOnce) {
     const auto scene = room().scene({.two_sided = two_sided, .max_patch_area = 0.05});
     const auto blocks = PatchBlocks::of(*scene);
     ASSERT_TRUE(blocks);
-    EXPECT_GT(patches_in_blocks(*blocks), 0.99 * scene->patch_count());
+    // The back of the block's base lies in the plane of the floor, and looks as it does.
+    EXPECT_GT(patches_in_blocks(*blocks), (two_sided ? 0.9 : 0.995) * scene->patch_count());
     EXPECT_LT(6 * blocks->blocks.size(), scene->patches().size());
     expect_each_patch_once(*scene, *blocks);
   }
@@ -129,16 +129,6 @@ TEST(PatchBlocks, HoldEachPatchOfDividedTrianglesOnce) {
         expect_each_patch_once(*scene, *blocks);
       }
     }
-  }
-}
-
-/// Which of two faces that touch is in front may depend on how a tree cuts them.
-TEST(PatchBlocks, AreNotUsedWhereABoxStandsOnTheFloor) {
-  for (const double gap : {0.0, 1e-14, -1e-13, 0.01}) {
-    Sketch sketch;
-    const int gray = sketch.material(0.5, 1);
-    sketch.box({0, 0, 0}, {5, 4, 3}, true, gray).box({1, 1, gap}, {2, 2.5, 1.2}, false, gray);
-    EXPECT_EQ(PatchBlocks::of(*sketch.scene({.max_patch_area = 0.05})) != nullptr, gap == 0.01);
   }
 }
 
@@ -222,9 +212,7 @@ TEST(PatchBlocks, AgreeWithTheLocalMap) {
             testing::moved(description, [&](const Vec3& p) { return rotate(p) + offset; });
       }
       const auto scene = std::make_shared<const Scene>(description, of.options);
-      // Turned and moved, boards are so near to walls that they may touch.
-      const bool may_touch = turn == 2 || (turn == 1 && std::string(of.name) == "crossing");
-      EXPECT_TRUE(PatchBlocks::of(*scene) || may_touch) << of.name;
+      EXPECT_TRUE(PatchBlocks::of(*scene) || turn == 2) << of.name;
       const auto tree = std::make_shared<const BspTree>(*scene);
       const TransferEngine fast = make_engine(Engine::fast, scene, tree);
       const TransferEngine local = make_engine(Engine::local, scene, tree);

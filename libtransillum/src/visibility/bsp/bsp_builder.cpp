@@ -179,42 +179,64 @@ void BspBuilder::join(Subtree& subtree_part) {
   tree_.depth_ = std::max(tree_.depth_, subtree_part.depth);
 }
 
-/// Pieces that are planar only within the rounding of a file become triangles.
+/// The plane of each patch of a divided face is that of the face. Through its own corners, whose
+/// rounding is large for its size, it would miss the far end of the face, or of a face that touches
+/// this one, by more than their thickness. Patches that are bent by more than the rounding of their
+/// corners keep their own: by a common plane, strips of the bend's width would be lost.
 void BspBuilder::add_pieces() {
   tree_.points_ = scene_.points();
-  planes_.reserve(scene_.pieces().size());
-  for (const Piece& piece : scene_.pieces()) {
-    check_cancellation();
-    const auto points = scene_.corners(piece);
-    if (points.size() == 3) {
-      add_triangle(piece.patch, {points[0], points[1], points[2]});
-      continue;
+  const std::vector<Piece>& pieces = scene_.pieces();
+  planes_.reserve(pieces.size());
+  const auto face_of = [&](const Piece& piece) { return scene_.patch(piece.patch).face; };
+  for (std::size_t begin = 0, end = 0; begin < pieces.size(); begin = end) {
+    while (end < pieces.size() && face_of(pieces[end]) == face_of(pieces[begin])) {
+      ++end;
     }
-    const BspTree::Plane plane = plane_of(points);
-    if (contains(plane, points)) {
-      add_polygon(piece.patch, points);
-      planes_.push_back(plane);
-      continue;
+    const std::span<const Piece> face(pieces.data() + begin, end - begin);
+    const BspTree::Plane front = plane_of(face);
+    for (const Piece& piece : face) {
+      check_cancellation();
+      const auto points = scene_.corners(piece);
+      const BspTree::Plane own = plane_of(points);
+      const bool is_flat = face.size() > 1 && contains(front, points, thickness_ / 16);
+      const double side = dot(own.normal, front.normal) >= 0 ? 1 : -1;
+      const BspTree::Plane common{side * front.normal, side * front.offset};
+      add_piece(piece, is_flat ? common : own);
     }
-    // A fan from the corner that makes the first fold a ridge: surfaces seen from outside stay
-    // convex.
-    const Vec3& origin = scene_.point(points[0]);
-    const Vec3 normal = cross(scene_.point(points[1]) - origin, scene_.point(points[2]) - origin);
-    const std::size_t start = dot(normal, scene_.point(points[3]) - origin) > 0 ? 1 : 0;
-    const auto corner = [&](std::size_t k) { return points[(start + k) % points.size()]; };
-    for (std::size_t k = 1; k + 1 < points.size(); ++k) {
-      add_triangle(piece.patch, {corner(0), corner(k), corner(k + 1)});
-    }
+  }
+}
+
+/// A piece that is planar only within the rounding of a file becomes triangles.
+void BspBuilder::add_piece(const Piece& piece, const BspTree::Plane& plane) {
+  const auto points = scene_.corners(piece);
+  if (points.size() == 3) {
+    add_triangle(piece.patch, {points[0], points[1], points[2]}, plane);
+    return;
+  }
+  if (contains(plane, points, thickness_)) {
+    add_polygon(piece.patch, points);
+    planes_.push_back(plane);
+    return;
+  }
+  // A fan from the corner that makes the first fold a ridge: surfaces seen from outside stay
+  // convex.
+  const Vec3& origin = scene_.point(points[0]);
+  const Vec3 normal = cross(scene_.point(points[1]) - origin, scene_.point(points[2]) - origin);
+  const std::size_t start = dot(normal, scene_.point(points[3]) - origin) > 0 ? 1 : 0;
+  const auto corner = [&](std::size_t k) { return points[(start + k) % points.size()]; };
+  for (std::size_t k = 1; k + 1 < points.size(); ++k) {
+    const std::array<PointId, 3> triangle{corner(0), corner(k), corner(k + 1)};
+    add_triangle(piece.patch, triangle, plane_of(triangle));
   }
 }
 
 /// A long needle's own corners may miss its plane, when its normal has lost the digits that cancel
 /// in the vector product. Another triangle with the same corners would then be cut by that plane,
 /// and parts of both would face each other.
-void BspBuilder::add_triangle(PatchId patch, const std::array<PointId, 3>& points) {
+void BspBuilder::add_triangle(PatchId patch, const std::array<PointId, 3>& points,
+                              BspTree::Plane plane) {
   add_polygon(patch, points);
-  BspTree::Plane plane = plane_of(points);
-  if (!contains(plane, points)) {
+  if (!contains(plane, points, thickness_)) {
     const Vec3 &a = scene_.point(points[0]), &b = scene_.point(points[1]),
                &c = scene_.point(points[2]);
     plane.normal = normalized(accurate_cross(b - a, c - a));
@@ -248,9 +270,36 @@ BspTree::Plane BspBuilder::plane_of(std::span<const PointId> points) const {
   return {normal, dot(normal, origin + sum / static_cast<double>(points.size()))};
 }
 
-bool BspBuilder::contains(const BspTree::Plane& plane, std::span<const PointId> points) const {
+/// The plane through the pieces of one face.
+BspTree::Plane BspBuilder::plane_of(std::span<const Piece> pieces) const {
+  if (pieces.size() == 1) {
+    return plane_of(scene_.corners(pieces[0]));
+  }
+  Vec3 sum, moment;
+  double weights = 0;
+  for (const Piece& piece : pieces) {
+    const auto points = scene_.corners(piece);
+    const Vec3& origin = scene_.point(points[0]);
+    Vec3 twice_area, corners;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const Vec3& a = scene_.point(points[k]);
+      const Vec3& b = scene_.point(points[(k + 1) % points.size()]);
+      twice_area = twice_area + cross(a - origin, b - origin);
+      corners = corners + a;
+    }
+    const double weight = norm(twice_area);
+    sum = dot(sum, twice_area) >= 0 ? sum + twice_area : sum - twice_area;
+    moment = moment + weight / static_cast<double>(points.size()) * corners;
+    weights += weight;
+  }
+  const Vec3 normal = normalized(sum);
+  return {normal, dot(normal, moment / weights)};
+}
+
+bool BspBuilder::contains(const BspTree::Plane& plane, std::span<const PointId> points,
+                          double distance) const {
   return std::all_of(points.begin(), points.end(), [&](PointId p) {
-    return std::abs(dot(plane.normal, scene_.point(p)) - plane.offset) <= thickness_;
+    return std::abs(dot(plane.normal, scene_.point(p)) - plane.offset) <= distance;
   });
 }
 

@@ -36,10 +36,14 @@ class BspBuilder {
   };
 
   void add_pieces();
+  void add_piece(const Piece& piece, const BspTree::Plane& plane);
   void add_polygon(PatchId patch, std::span<const PointId> points);
-  void add_triangle(PatchId patch, const std::array<PointId, 3>& points);
-  bool contains(const BspTree::Plane& plane, std::span<const PointId> points) const;
+  void add_triangle(PatchId patch, const std::array<PointId, 3>& points, BspTree::Plane plane);
+  /// Whether no point is farther from the plane than the distance, m.
+  bool contains(const BspTree::Plane& plane, std::span<const PointId> points,
+                double distance) const;
   BspTree::Plane plane_of(std::span<const PointId> points) const;
+  BspTree::Plane plane_of(std::span<const Piece> pieces) const;
   void check_cancellation();
   LineId line_between(PointId a, PointId b);
   PolygonSet take_polygons();

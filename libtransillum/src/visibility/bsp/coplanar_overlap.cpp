@@ -20,12 +20,9 @@ namespace {
 
 class OverlapFinder {
  public:
-  /// @param touching whether to find patches as have_touching_patches() does
-  OverlapFinder(const Scene& scene, bool touching, std::size_t max_pairs,
-                const Cancellation& cancellation)
+  OverlapFinder(const Scene& scene, std::size_t max_pairs, const Cancellation& cancellation)
       : scene_(scene),
-        touching_(touching),
-        thickness_((touching ? 64 : 1) * BspTree::thickness(scene)),
+        thickness_(BspTree::thickness(scene)),
         max_pairs_(max_pairs),
         cancellation_(cancellation) {
     boxes_.resize(scene.pieces().size());
@@ -72,11 +69,6 @@ class OverlapFinder {
     return corners;
   }
 
-  /// Whether two pieces have the same corners.
-  bool are_sides(std::size_t p, std::size_t q) const {
-    const auto a = scene_.corners(scene_.pieces()[p]), b = scene_.corners(scene_.pieces()[q]);
-    return std::is_permutation(a.begin(), a.end(), b.begin(), b.end());
-  }
   /// Whether a piece lies in the plane of another.
   bool lies_in(std::size_t piece, std::size_t plane) const {
     const Patch& patch = scene_.patch(patch_of(plane));
@@ -89,8 +81,7 @@ class OverlapFinder {
   /// Adds the area in which two pieces overlap, if any.
   void add_overlap(std::size_t p, std::size_t q) {
     const PatchId a = patch_of(p), b = patch_of(q);
-    const bool one_side = dot(scene_.patch(a).normal, scene_.patch(b).normal) > 0;
-    if (a == b || one_side == touching_ || (touching_ && are_sides(p, q))) {
+    if (a == b || dot(scene_.patch(a).normal, scene_.patch(b).normal) <= 0) {
       return;
     }
     const Corners cover = outline(p);
@@ -118,7 +109,6 @@ class OverlapFinder {
   }
 
   const Scene& scene_;
-  const bool touching_;
   const double thickness_;
   const std::size_t max_pairs_;
   const Cancellation& cancellation_;
@@ -130,11 +120,7 @@ class OverlapFinder {
 
 std::vector<CoplanarOverlap> coplanar_overlaps(const Scene& scene, std::size_t most,
                                                const Cancellation& cancellation) {
-  return OverlapFinder(scene, false, most, cancellation).find();
-}
-
-bool have_touching_patches(const Scene& scene, const Cancellation& cancellation) {
-  return !OverlapFinder(scene, true, 1, cancellation).find().empty();
+  return OverlapFinder(scene, most, cancellation).find();
 }
 
 }  // namespace transillum

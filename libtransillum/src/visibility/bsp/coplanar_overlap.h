@@ -29,9 +29,5 @@ struct CoplanarOverlap {
 /// @throws Canceled
 std::vector<CoplanarOverlap> coplanar_overlaps(const Scene& scene, std::size_t most,
                                                const Cancellation& cancellation = {});
-/// Whether some patches with opposite normals overlap within 64 times BspTree::thickness() of each
-/// other, as a box and the floor below it; not the two sides of a face, on the same points.
-/// @throws Canceled
-bool have_touching_patches(const Scene& scene, const Cancellation& cancellation = {});
 
 }  // namespace transillum

@@ -409,7 +409,12 @@ void PlaneSearch::consider(const Vec3& normal, double offset, std::int32_t sampl
   const double cost = (cuts + cost_of_a_node) / (gain * scale);
   if (gain > 0 && cost < best_cost_) {
     best_cost_ = cost;
-    best_ = {{normal, offset}, sampled < 0 ? -1 : at(sample_, sampled), is_one_sided};
+    // The normal may be of a polygon that is only nearly parallel: by its plane, what touches the
+    // one in the plane could be on one side at one end and on the other at the other.
+    const std::int32_t polygon = sampled < 0 ? -1 : at(sample_, sampled);
+    const BspTree::Plane plane = polygon < 0 ? BspTree::Plane{normal, offset}
+                                             : at(planes_, at(set_->polygons, polygon).plane);
+    best_ = {plane, polygon, is_one_sided};
   }
 }
 

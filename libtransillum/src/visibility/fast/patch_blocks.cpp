@@ -280,11 +280,6 @@ std::shared_ptr<const PatchBlocks> PatchBlocks::of(const Scene& scene,
     return nullptr;
   }
   auto united = builder.united();
-  // Where faces touch, the order of both may depend on how a tree cuts them: it has to be the order
-  // of the tree of the patches.
-  if (have_touching_patches(*united, cancellation)) {
-    return nullptr;
-  }
   // Where faces of one plane overlap, the smaller patch covers the larger one.
   const std::size_t most = scene.patches().size();
   const auto overlaps = coplanar_overlaps(*united, most, cancellation);
