@@ -132,6 +132,14 @@ TEST(PatchBlocks, HoldEachPatchOfDividedTrianglesOnce) {
   }
 }
 
+TEST(PatchBlocks, AreCanceledWhileAnEngineIsMade) {
+  const auto scene = room().scene({.max_patch_area = 0.05});
+  const auto tree = std::make_shared<const BspTree>(*scene);
+  Cancellation cancellation;
+  cancellation.cancel();
+  EXPECT_THROW(make_engine(Engine::fast, scene, tree, {}, cancellation), Canceled);
+}
+
 TEST(PatchBlocks, AreNotMadeOfWholeFaces) {
   Sketch sketch;
   sketch.triangles(20, 1, 4, sketch.material(0.5, 1));

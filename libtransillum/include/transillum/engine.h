@@ -126,8 +126,11 @@ struct EngineOptions {
 /// @param scene the scene.
 /// @param tree BSP tree of `scene`.
 /// @param options those that the engine does not read are ignored.
+/// @param cancellation of making it: engine fast looks for patches that it can query together.
 /// @throws InputError where the engine does not support the scene or an option.
+/// @throws Canceled
 TransferEngine make_engine(Engine engine, std::shared_ptr<const Scene> scene,
-                           std::shared_ptr<const BspTree> tree, const EngineOptions& options = {});
+                           std::shared_ptr<const BspTree> tree, const EngineOptions& options = {},
+                           const Cancellation& cancellation = {});
 
 }  // namespace TRANSILLUM_API transillum

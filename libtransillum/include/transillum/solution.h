@@ -186,7 +186,7 @@ struct SolveStatistics {
   std::int64_t integrated_pairs = 0;
   GlossyStatistics glossy;        ///< statistics of a glossy solve
   double seconds_load = 0;        ///< reading the scene; set by the caller
-  double seconds_bsp = 0;         ///< building the BSP tree
+  double seconds_bsp = 0;         ///< building BSP tree and engine
   double seconds_first_shot = 0;  ///< first shot
   double seconds_transfers = 0;   ///< passes
   double seconds_iterate = 0;     ///< iterating

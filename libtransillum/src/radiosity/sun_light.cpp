@@ -59,18 +59,20 @@ std::vector<SunRay> rays_of(const Sun& sun) {
 
 SunLight sun_light(const std::shared_ptr<const Scene>& scene,
                    const std::shared_ptr<const BspTree>& tree, const SolveOptions& options,
-                   const Cancellation& cancellation) {
+                   const Cancellation& cancellation, TransferEngine engine) {
   SunLight light;
   const Sun& sun = options.sky.sun;
   if (!sun.is_set()) {
     return light;
   }
   const bool linear = options.basis == Basis::linear;
-  const auto used_tree =
-      tree ? tree
-           : std::make_shared<const BspTree>(*scene, cancellation, std::function<void(double)>{},
-                                             options.threads);
-  const TransferEngine engine = make_engine(Engine::fast, scene, used_tree, {.moments = linear});
+  if (!engine || options.engine != Engine::fast) {
+    const auto used_tree =
+        tree ? tree
+             : std::make_shared<const BspTree>(*scene, cancellation, std::function<void(double)>{},
+                                               options.threads);
+    engine = make_engine(Engine::fast, scene, used_tree, {.moments = linear}, cancellation);
+  }
   const std::vector<SunRay> rays = rays_of(sun);
   std::vector<std::vector<Coefficients>> of_ray(rays.size());
   WorkerThreads workers(thread_count(options.threads));

@@ -347,7 +347,7 @@ Solution SolveSession::solution() const {
   solution.accuracy = accuracy();
   SolveStatistics& statistics = solution.statistics;
   statistics.refinement = rounds();
-  statistics.seconds_bsp = s.seconds_bsp;
+  statistics.seconds_bsp += s.seconds_bsp;
   statistics.seconds_first_shot = s.seconds_first_shot;
   statistics.seconds_total = s.seconds();
   return solution;

@@ -60,7 +60,7 @@ void make_passes(const std::shared_ptr<const Scene>& scene, const SolveOptions& 
                  const Cancellation& cancellation) {
   check_can_be_shared(options, share);
   const TransferEngine engine =
-      make_engine(options.engine, scene, tree, used_engine_options(options));
+      make_engine(options.engine, scene, tree, used_engine_options(options), cancellation);
   const std::vector<Vec3> directions = PassPlan(options).directions(0);
   const auto pass_of = [&](int n) { return share.number - 1 + n * share.of; };
   const int count = (options.directions - share.number) / share.of + 1;

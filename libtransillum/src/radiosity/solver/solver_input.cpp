@@ -115,13 +115,15 @@ void SolverInput::prepare() {
     seconds_bsp = seconds_since(start);
   }
   require_engine();
-  sun = sun_light(scene, tree, options, requested);
+  sun = sun_light(scene, tree, options, requested, engine);
   unknowns = std::make_shared<const Unknowns>(*scene, options.basis, *shot, sun);
 }
 
 void SolverInput::require_engine() {
   if (!engine) {
-    engine = make_engine(options.engine, scene, tree, used_engine_options(options));
+    const auto start = Clock::now();
+    engine = make_engine(options.engine, scene, tree, used_engine_options(options), requested);
+    seconds_bsp += seconds_since(start);
   }
 }
 

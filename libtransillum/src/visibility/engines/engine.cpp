@@ -47,11 +47,12 @@ void check(Engine engine, const EngineOptions& options) {
 }  // namespace
 
 TransferEngine make_engine(Engine engine, std::shared_ptr<const Scene> scene,
-                           std::shared_ptr<const BspTree> tree, const EngineOptions& options) {
+                           std::shared_ptr<const BspTree> tree, const EngineOptions& options,
+                           const Cancellation& cancellation) {
   check(engine, options);
   switch (engine) {
     case Engine::fast:
-      return fast_engine(std::move(scene), std::move(tree), options.moments);
+      return fast_engine(std::move(scene), std::move(tree), options.moments, cancellation);
     case Engine::local:
       return local_map_engine(std::move(scene), std::move(tree), options.moments);
     case Engine::global:

@@ -40,14 +40,13 @@ class IdlePasses {
 /// one direction holds along all lines: the number of surfaces around a point, counted by front and
 /// back sides, is the same on every line through it (decisions/0015-closed-surfaces.md). So one
 /// pass decides.
-bool hides_all_backs(const FastScene& shared) {
+bool hides_all_backs(const FastScene& shared, const Cancellation& cancellation) {
   // An arbitrary direction with which no scene is likely to be aligned.
   const Vec3 omega = normalized(Vec3{0.5772156649, 0.3141592653, 0.7390851332});
   if (!is_closed_surface(*shared.scene)) {
     return false;
   }
-  const Cancellation never;
-  const Transfers transfers = FastPass(shared).run(omega, never);
+  const Transfers transfers = FastPass(shared).run(omega, cancellation);
   for (PatchId i = 0; i < shared.scene->patch_count(); ++i) {
     // By rounding, slivers of backs are seen beside the edges of what hides them.
     const double limit = 1e-13 * shared.scene->patch(i).area;
@@ -61,7 +60,7 @@ bool hides_all_backs(const FastScene& shared) {
 }  // namespace
 
 bool fronts_see_no_backs(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree) {
-  return hides_all_backs(FastScene(std::move(scene), std::move(tree)));
+  return hides_all_backs(FastScene(std::move(scene), std::move(tree)), {});
 }
 
 namespace {
@@ -83,14 +82,14 @@ TransferEngine engine_of(std::shared_ptr<const FastScene> shared) {
 /// @param by_blocks whether patches of one face may be queried together
 std::shared_ptr<FastScene> fast_scene(std::shared_ptr<const Scene> scene,
                                       std::shared_ptr<const BspTree> tree, bool moments,
-                                      bool by_blocks) {
-  auto blocks = by_blocks ? PatchBlocks::of(*scene) : nullptr;
+                                      bool by_blocks, const Cancellation& cancellation) {
+  auto blocks = by_blocks ? PatchBlocks::of(*scene, cancellation) : nullptr;
   if (blocks) {
     // Small beside the tree of the patches.
-    tree = std::make_shared<const BspTree>(*blocks->scene, Cancellation(), nullptr, 1);
+    tree = std::make_shared<const BspTree>(*blocks->scene, cancellation, nullptr, 1);
   }
   auto shared = std::make_shared<FastScene>(std::move(scene), std::move(tree), std::move(blocks));
-  shared->backs_hidden = hides_all_backs(*shared);
+  shared->backs_hidden = hides_all_backs(*shared, cancellation);
   if (moments) {
     shared->bases = std::make_shared<const std::vector<LinearBasis>>(linear_bases(*shared->scene));
   }
@@ -100,14 +99,14 @@ std::shared_ptr<FastScene> fast_scene(std::shared_ptr<const Scene> scene,
 }  // namespace
 
 TransferEngine fast_engine(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree,
-                           bool moments) {
-  return engine_of(fast_scene(std::move(scene), std::move(tree), moments, true));
+                           bool moments, const Cancellation& cancellation) {
+  return engine_of(fast_scene(std::move(scene), std::move(tree), moments, true, cancellation));
 }
 
 TransferEngine measured_fast_engine(std::shared_ptr<const Scene> scene,
                                     std::shared_ptr<const BspTree> tree, bool moments,
                                     std::vector<PatchCost>& costs) {
-  const auto shared = fast_scene(std::move(scene), std::move(tree), moments, true);
+  const auto shared = fast_scene(std::move(scene), std::move(tree), moments, true, {});
   const auto pass = std::make_shared<FastPass>(*shared, &costs);
   return [shared, pass](const Vec3& omega, const Cancellation& cancellation) {
     return pass->run(omega, cancellation);
@@ -117,7 +116,7 @@ TransferEngine measured_fast_engine(std::shared_ptr<const Scene> scene,
 TransferEngine fast_patch_engine(std::shared_ptr<const Scene> scene,
                                  std::shared_ptr<const BspTree> tree, PatchId patch, bool moments) {
   // That no backs are seen holds for the whole scene, and so for the fragments in the shaft.
-  const auto shared = fast_scene(std::move(scene), std::move(tree), moments, false);
+  const auto shared = fast_scene(std::move(scene), std::move(tree), moments, false, {});
   shared->shaft.emplace(*shared->scene, *shared->tree, patch);
   return engine_of(shared);
 }

@@ -11,9 +11,10 @@ namespace transillum {
 
 /// Engine `fast`: visible areas in doubles, with exact signs where doubles do not suffice.
 /// @param moments whether it computes Transfers::moments
-/// @throws Canceled when the engine is called
+/// @param cancellation of making it
+/// @throws Canceled
 TransferEngine fast_engine(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree,
-                           bool moments = false);
+                           bool moments = false, const Cancellation& cancellation = {});
 /// Engine `fast`, restricted to the exchanges of one patch; all other transfers are incomplete.
 TransferEngine fast_patch_engine(std::shared_ptr<const Scene> scene,
                                  std::shared_ptr<const BspTree> tree, PatchId patch,
