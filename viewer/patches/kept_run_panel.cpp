@@ -50,11 +50,11 @@ QStringList texts_of(const KeptRun& run) {
   const QString none = QStringLiteral("–");
   return {
       run.name,
-      by_directions ? QString::number(options.directions) : none,
+      by_directions ? count_text(options.directions) : none,
       by_directions ? capitalized(QString::fromStdString(name_of(options.used_sampling()))) : none,
       snapshot.of_file && !snapshot.loaded->description ? KeptRunPanel::tr("a file")
                                                         : engine_label(options.engine),
-      QString::number(snapshot.progress.iteration),
+      count_text(snapshot.progress.iteration),
       QLocale::c().toString(run.kept, QStringLiteral("HH:mm:ss"))};
 }
 

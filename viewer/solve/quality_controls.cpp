@@ -17,6 +17,7 @@
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "widgets/build.h"
+#include "widgets/count_box.h"
 
 namespace transillum::viewer {
 
@@ -42,10 +43,9 @@ QPushButton* segment(const QString& name, const QString& text, const QString& ti
 QualityControls::QualityControls(QWidget* parent) : QWidget(parent) {
   add_buttons();
   add_accuracy_of();
-  directions_ = named("directions", new QSpinBox, setting_tip("directions"));
+  directions_ = named("directions", new CountBox, setting_tip("directions"));
   directions_->setRange(1, 1 << 24);
   directions_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-  directions_->setGroupSeparatorShown(false);
   QSizePolicy policy = directions_->sizePolicy();
   policy.setRetainSizeWhenHidden(true);  // the button beside it keeps its width
   directions_->setSizePolicy(policy);

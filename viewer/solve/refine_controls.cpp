@@ -10,6 +10,7 @@
 #include "solve/setting_tips.h"
 #include "support/number_text.h"
 #include "widgets/build.h"
+#include "widgets/count_box.h"
 #include "widgets/setting_rows.h"
 
 namespace transillum::viewer {
@@ -33,7 +34,7 @@ RefineControls::RefineControls(QWidget* parent) : QWidget(parent) {
   by_->addItems({tr("None"), tr("Jumps"), tr("Error")});
   by_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   by_->setMinimumContentsLength(8);
-  patches_ = named("refine_patches", new QSpinBox, tr("Largest number of patches"));
+  patches_ = named("refine_patches", new CountBox, tr("Largest number of patches"));
   patches_->setRange(1, 1 << 24);
   patches_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   patches_->setValue(usual_patches);

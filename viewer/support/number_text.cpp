@@ -27,7 +27,7 @@ QString number_text(double value) {
     return QStringLiteral("–");
   }
   const double size = std::abs(value);
-  if (size >= 1e4 && size < 1e7) {
+  if (size >= 999.95 && size < 1e7) {  // four digits are whole numbers
     return count_text(std::llround(value));
   }
   QString text = QString::number(value, 'g', 4);

@@ -15,7 +15,7 @@ namespace transillum::viewer {
 /// QCoreApplication, which sets the user's locale, and before the first widget.
 void use_decimal_point();
 
-/// Up to four significant digits: 0.01234, 1.234 × 10⁻⁶, 19 976; "–" if not finite.
+/// Up to four significant digits: 0.01234, 1.234 × 10⁻⁶, 2 013, 19 976; "–" if not finite.
 QString number_text(double value);
 /// With thin spaces between thousands: 19 976.
 QString count_text(std::int64_t value);

@@ -213,7 +213,7 @@ void LightOffer::make_emit(const std::string& target) {
 namespace {
 
 QString changes_text(const OrientationReport& report) {
-  const auto count = [](std::int64_t number) { return QString::number(number); };
+  const auto count = [](std::int64_t number) { return count_text(number); };
   QStringList parts;
   if (report.faces_turned > 0) {
     parts << OrientationOffer::tr("%1 of %2 faces would be turned (orange)")

@@ -1,0 +1,52 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "widgets/count_box.h"
+
+#include <QRegularExpression>
+#include <algorithm>
+
+#include "support/number_text.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+QString without_spaces(QString text) {
+  static const QRegularExpression spaces(QStringLiteral("\\s"));
+  return text.remove(spaces);
+}
+
+}  // namespace
+
+CountBox::CountBox(QWidget* parent) : QSpinBox(parent) { setGroupSeparatorShown(false); }
+
+QString CountBox::textFromValue(int value) const { return count_text(value); }
+
+int CountBox::valueFromText(const QString& text) const {
+  if (!specialValueText().isEmpty() && text == specialValueText()) {
+    return minimum();
+  }
+  QString number = without_spaces(text);
+  const QString before = without_spaces(prefix()), after = without_spaces(suffix());
+  if (!before.isEmpty() && number.startsWith(before)) {
+    number.remove(0, before.size());
+  }
+  if (!after.isEmpty() && number.endsWith(after)) {
+    number.chop(after.size());
+  }
+  return number.toInt();
+}
+
+// The base class knows which texts are numbers in its range, but not the spaces.
+QValidator::State CountBox::validate(QString& text, int& position) const {
+  if (!specialValueText().isEmpty() && text == specialValueText()) {
+    return QValidator::Acceptable;
+  }
+  QString plain = text;
+  plain.remove(QChar(0x2009));
+  int at = std::min(position, static_cast<int>(plain.size()));
+  return QSpinBox::validate(plain, at);
+}
+
+void CountBox::fixup(QString& text) const { text.remove(QChar(0x2009)); }
+
+}  // namespace transillum::viewer
