@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // The panel of settings: what it keeps, shows and tells.
 #include <QComboBox>
+#include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QRegularExpression>
@@ -8,11 +9,14 @@
 #include <QStyleOption>
 #include <limits>
 
+#include "model/solver/session_snapshot.h"
 #include "scene/build/patch_count.h"
 #include "solve/quality_controls.h"
 #include "solve/settings_panel.h"
 #include "solve/solve_cost.h"
 #include "solved_window.h"
+#include "support/number_text.h"
+#include "widgets/count_box.h"
 #include "widgets/engine_text.h"
 #include "widgets/fold.h"
 
@@ -26,6 +30,13 @@ std::shared_ptr<const SolverSnapshot> in_effect(const SolveOptions& options) {
   auto snapshot = std::make_shared<SolverSnapshot>();
   snapshot->options = options;
   return snapshot;
+}
+
+std::shared_ptr<const LoadedScene> loaded_of(const char* spec) {
+  auto loaded = std::make_shared<LoadedScene>();
+  loaded->scene = load_scene(spec);
+  loaded->tree = std::make_shared<const BspTree>(*loaded->scene);
+  return loaded;
 }
 
 /// Width for the text of a box, pixels.
@@ -253,6 +264,162 @@ class SettingsTest : public QObject {
     QVERIFY(wanted.seconds >= directions * spent.seconds_transfers / 8);
     QVERIFY(wanted.seconds < directions * spent.seconds_transfers / 8 + 60);
     QCOMPARE(cost->text(), cost_text(wanted));
+  }
+
+  // The forecast of the settings in effect, and the time that the solve itself says is left.
+  void the_forecast_agrees_with_the_solve_under_way() {
+    const auto loaded = loaded_of("sphere-flake:levels=1");
+    constexpr int passes = 64;
+    SolveOptions options{.directions = passes};
+    options.first_shot.reset();
+    SolveSession session({.scene = loaded->scene, .options = options, .tree = loaded->tree});
+    session.prepare();
+    int told = 0;
+    session.advance(SolveSession::Until::iteration, [&](const SolveSession& now) {
+      const SolverSnapshot snapshot = snapshot_of(now, loaded);
+      const SolveProgress& progress = snapshot.progress;
+      if (progress.direction < passes / 4 || progress.direction == passes) {
+        return true;
+      }
+      const SolveCost cost = cost_of(&snapshot, options, loaded->scene->patch_count());
+      const double own = passes / progress.passes_per_second;
+      told += cost.seconds && *cost.seconds > 0.5 * own && *cost.seconds < 2 * own;
+      return true;
+    });
+    QCOMPARE(told, passes - passes / 4);
+  }
+
+  // Lobes reflect after the passes of an iteration: their time is not known before.
+  void the_time_of_lobes_is_told_once_they_have_reflected() {
+    const auto loaded = loaded_of("gallery");
+    SolveOptions options{.directions = 16};
+    options.glossy = true;
+    SolveSession session({.scene = loaded->scene, .options = options, .tree = loaded->tree});
+    session.prepare();
+    std::vector<double> seconds;
+    while (!session.finished()) {
+      session.advance(SolveSession::Until::iteration);
+      const SolverSnapshot snapshot = snapshot_of(session, loaded);
+      const SolveCost cost = cost_of(&snapshot, options, loaded->scene->patch_count());
+      QCOMPARE(cost.seconds.has_value(), snapshot.progress.iteration >= 2);
+      seconds.push_back(cost.seconds.value_or(0));
+    }
+    // More passes make more light that is reflected in each iteration.
+    const SolverSnapshot done = snapshot_of(session, loaded);
+    QVERIFY(seconds.back() >= done.statistics.seconds_transfers + done.statistics.seconds_iterate);
+    options.directions *= 4;
+    const SolveCost cost = cost_of(&done, options, loaded->scene->patch_count());
+    QVERIFY(*cost.seconds > 3.9 * (seconds.back() - done.statistics.seconds_bsp -
+                                   done.statistics.seconds_first_shot));
+  }
+
+  // A solve for an accuracy takes the passes that it took.
+  void a_solve_that_has_reached_its_accuracy_costs_what_it_took() {
+    const auto loaded = loaded_of("cornell-box");
+    SolveOptions options;
+    options.goal.accuracy = 0.05;
+    SolveSession session({.scene = loaded->scene, .options = options, .tree = loaded->tree});
+    session.prepare();
+    session.advance(SolveSession::Until::finished);
+    const SolverSnapshot done = snapshot_of(session, loaded);
+    QVERIFY(done.accuracy && done.accuracy->reached && done.accuracy->error < 0.05);
+    const SolveStatistics& s = done.statistics;
+    const double more =
+        static_cast<double>(done.accuracy->passes_made) / static_cast<double>(s.passes_made);
+    const SolveCost cost = cost_of(&done, done.options, s.patches);
+    QVERIFY(*cost.seconds >= more * s.seconds_transfers);
+    QCOMPARE(*cost.seconds, *cost.most_seconds);
+  }
+
+  void all_counts_are_written_alike() {
+    const SolvedWindow solved("cornell-box", {.directions = 8});
+    QVERIFY(solved.ready);
+    auto* directions = solved.window->findChild<QSpinBox*>("directions");
+    directions->setValue(19'720);
+    QCOMPARE(directions->text(), count_text(19'720));
+    QCOMPARE(number_text(19'720), count_text(19'720));
+    QCOMPARE(number_text(2013), count_text(2013));
+    QCOMPARE(number_text(999.5), QString("999.5"));
+    QCOMPARE(number_text(999.96), count_text(1000));
+    // What is typed may have spaces or none, as may a number that is pasted.
+    CountBox box;
+    box.setRange(0, 100'000);
+    box.setPrefix("about ");
+    for (const QString& typed : {QString("2013"), count_text(2013), "about " + count_text(2013)}) {
+      box.setValue(500);
+      auto* line = box.findChild<QLineEdit*>();
+      line->selectAll();
+      line->insert(typed);
+      QTest::keyClick(&box, Qt::Key_Return);
+      QCOMPARE(box.value(), 2013);
+      QCOMPARE(box.text(), "about " + count_text(2013));
+    }
+  }
+
+  // No control above the sections, and no section above the sky, moves while a solve goes on.
+  void controls_keep_their_places() {
+    const SolvedWindow solved("cornell-box", {.directions = 8});
+    QVERIFY(solved.ready);
+    auto& panel = solved.window->views().settings;
+    auto* how_wrong = panel.findChild<QPushButton*>("how_wrong");
+    const auto places = [&panel] {
+      std::vector<int> all;
+      for (const char* name : {"how_wrong", "method_section", "refine_section", "limits_section"}) {
+        const auto* widget = panel.findChild<QWidget*>(name);
+        all.push_back(widget->mapTo(&panel, QPoint()).y());
+      }
+      return all;
+    };
+    const auto unfinished = solved.window->snapshot();
+    auto finished = std::make_shared<SolverSnapshot>(*unfinished);
+    finished->progress.finished = true;
+    panel.set_in_effect(finished, panel.scene_options());
+    handle_posted();
+    QVERIFY(how_wrong->isVisible() && how_wrong->isEnabled());
+    const std::vector<int> before = places();
+    panel.set_in_effect(unfinished, panel.scene_options());
+    for (const double escape : {0.0, 0.5}) {
+      panel.show_escape(escape);
+      handle_posted();
+      QVERIFY(how_wrong->isVisible() && !how_wrong->isEnabled());
+      QVERIFY(how_wrong->toolTip().contains("ended"));
+      QVERIFY(places() == before);
+    }
+    const auto* sky = panel.findChild<QWidget*>("sky_section");
+    QVERIFY(sky->mapTo(&panel, QPoint()).y() > before.back());
+  }
+
+  void a_state_that_does_not_fit_loses_whole_parts() {
+    FoldHeader header("Method", nullptr);
+    header.set_state("Fast · Antipodal · Linear · Conjugate gradients · lobes");
+    const QFontMetrics metrics = header.fontMetrics();
+    QString last;
+    for (int width = 900; width > 60; --width) {
+      header.resize(width, 30);
+      const QString shown = header.shown_state();
+      QString whole = shown;
+      whole.remove(" …");
+      QVERIFY2(shown == "…" || shown == header.state() ||
+                   (header.state() + " · ").startsWith(whole + " · "),
+               qPrintable(shown));
+      QVERIFY(shown == "…" || metrics.horizontalAdvance(shown) < width);
+      QVERIFY(last.isEmpty() || shown.size() <= last.size());
+      last = shown;
+    }
+    QCOMPARE(last, QString("…"));
+  }
+
+  void headings_of_materials_are_on_one_line() {
+    const SolvedWindow solved("cornell-box", {.directions = 8});
+    QVERIFY(solved.ready);
+    solved.window->resize(1280, 720);
+    solved.window->views().docks.bring_to_front("material");
+    const auto* heading = solved.window->findChild<QLabel*>("exitance_heading");
+    QVERIFY(wait_for([&] { return heading->isVisible(); }));
+    QCOMPARE(heading->text(), QString("Exitance E, W/m²"));
+    QVERIFY2(heading->width() >= heading->sizeHint().width() &&
+                 heading->height() < 1.7 * heading->fontMetrics().height(),
+             qPrintable(QString("%1 x %2").arg(heading->width()).arg(heading->height())));
   }
 
   // A draft has no error that would tell how many passes an accuracy needs: a range is shown.

@@ -84,7 +84,7 @@ QWidget* MaterialPanel::make_sliders() {
       tr("<span>Fraction of the light that the lobe reflects, most of it near the mirror "
          "direction. The sum of k and ρ is at most 1; where it is more, k is lowered</span>"));
   gloss_ = new GlossSlider;
-  exitance_ = new ChannelSliders("exitance", tr("Emitted exitance E, W/m²"), 2);
+  exitance_ = new ChannelSliders("exitance", tr("Exitance E, W/m²"), 2);
   account_ = make_note("material_account");
   sliders_ = new QWidget;
   sliders_->setToolTip(

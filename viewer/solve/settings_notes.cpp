@@ -32,7 +32,7 @@ namespace transillum::viewer {
 
 namespace {
 
-const QString dot = QStringLiteral(" · ");
+const QString dot = QString::fromUtf8(FoldHeader::separator);
 
 }  // namespace
 
@@ -236,7 +236,8 @@ void SettingsPanel::show_button() {
   QFont font = restart_->font();
   font.setBold(differs);
   restart_->setFont(font);
-  how_wrong_->setVisible(in_effect_ && in_effect_->progress.finished && has_light(*in_effect_));
+  enable_if(*how_wrong_, in_effect_ && in_effect_->progress.finished && has_light(*in_effect_),
+            tr("Errors are measured for a solve that has ended, of a scene with light"));
 }
 
 }  // namespace transillum::viewer

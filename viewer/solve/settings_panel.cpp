@@ -32,6 +32,7 @@
 #include "state/camera_views.h"
 #include "support/number_text.h"
 #include "widgets/build.h"
+#include "widgets/count_box.h"
 #include "widgets/engine_text.h"
 #include "widgets/fold.h"
 #include "widgets/scrolling.h"
@@ -85,10 +86,10 @@ SettingsPanel::SettingsPanel(QWidget* parent) : QWidget(parent) {
   sections_ = new QWidget;
   make_column(sections_, {0, 0, 12, 10}, 0);
   add_method();
-  add_sky();
   refine_ = new RefineControls;
   add_section(refine_section_ = new Fold("refine_section", tr("Refine"), refine_));
   add_limits();
+  add_sky();  // the last, as it is hidden while no light escapes from the scene
   rounds_ = new RoundPanel;
   sections_->layout()->addWidget(rounds_);
   static_cast<QBoxLayout*>(sections_->layout())->addStretch(1);
@@ -104,7 +105,7 @@ void SettingsPanel::add_section(Fold* fold) { sections_->layout()->addWidget(fol
 
 void SettingsPanel::add_top() {
   quality_ = new QualityControls;
-  patches_ = named("patches_wanted", new QSpinBox,
+  patches_ = named("patches_wanted", new CountBox,
                    tr("About how many patches the faces are divided into; the lowest value does "
                       "not divide them"));
   patches_->setRange(0, most_patches);
@@ -159,7 +160,7 @@ void SettingsPanel::add_method() {
 void SettingsPanel::add_engine_rows(SettingRows& rows) {
   engine_ = named("engine", new QComboBox);
   add_engines(*engine_, false);
-  resolution_ = named("resolution", new QSpinBox);
+  resolution_ = named("resolution", new CountBox);
   resolution_->setRange(0, EngineOptions::largest_resolution);
   resolution_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   resolution_->setSuffix(tr(" px"));
@@ -281,7 +282,7 @@ void SettingsPanel::add_limits() {
   tolerance_ = named("tolerance", new QLineEdit, setting_tip("tolerance"));
   tolerance_->setValidator(number_validator(tolerance_, 0, 1, 15));
   tolerance_->setMinimumWidth(60);
-  iterations_ = named("iterations", new QSpinBox, setting_tip("iterations"));
+  iterations_ = named("iterations", new CountBox, setting_tip("iterations"));
   iterations_->setRange(1, 1'000'000);
   iterations_->setMinimumWidth(60);
   stop_value_ = new QStackedWidget;

@@ -144,7 +144,7 @@ class SettingsPanel : public QWidget {
   QWidget* patches_row_;
   QLabel* cost_;
   QPushButton* restart_;
-  QPushButton* how_wrong_;  ///< visible for a solve that has ended
+  QPushButton* how_wrong_;  ///< enabled for a solve that has ended
   QWidget* sections_;
   Fold *method_, *sky_section_, *refine_section_, *limits_;
   QComboBox* sampling_;

@@ -35,13 +35,20 @@ constexpr Passes passes_of_percent{250, 1000};
 /// The error of antipodal sets decreases about as the passes to this power.
 constexpr double exponent = 0.9;
 
+/// Passes of all stages of a solve so far, with all passes of the present one.
+double passes_begun(const SolverSnapshot& done) {
+  const bool is_between = done.progress.finished && done.accuracy;
+  return (done.accuracy ? static_cast<double>(done.accuracy->passes_made) : 0.0) +
+         (is_between ? 0 : done.progress.passes);
+}
+
 /// The error of `done` that a goal is about, 0 if it is not known; and the passes of all its
-/// stages.
+/// stages. The estimate of the first iteration under way is no error of B.
 std::pair<double, double> known_error(const SolverSnapshot& done, const AccuracyGoal& goal) {
   if (done.accuracy && done.accuracy->goal.of == goal.of) {
     return {done.accuracy->error, static_cast<double>(done.accuracy->passes_made)};
   }
-  if (done.error.replicas == 0 || done.of_draft) {
+  if (done.error.replicas == 0 || done.of_draft || done.progress.iteration == 0) {
     return {0, 0};
   }
   const double error = goal.of == AccuracyOf::surfaces     ? done.error.surfaces.limit
@@ -51,17 +58,45 @@ std::pair<double, double> known_error(const SolverSnapshot& done, const Accuracy
   return {error, static_cast<double>(done.statistics.passes_made)};
 }
 
+/// Iterations of `done` when it ends; those finished, where that is not known.
+double iterations_of(const SolverSnapshot& done) {
+  const auto& records = done.statistics.iteration_records;
+  const double made = std::max(1.0, static_cast<double>(records.size()));
+  if (done.progress.finished || records.empty()) {
+    return made;
+  }
+  const IterationRecord& last = records.back();
+  const double left = std::max(last.remainder, last.remainder_dimmest);
+  const double more = std::log(done.options.tolerance / left) / std::log(last.contraction);
+  return std::isfinite(more) && more > 0 && last.contraction < 1 ? made + std::ceil(more) : made;
+}
+
+/// Whether lobes reflect in each iteration, which takes longer than the passes do.
+bool reflects_lobes(const SolverSnapshot& done) { return done.statistics.glossy.patches > 0; }
+
+/// Whether each iteration makes its passes, which are not kept.
+bool repeats_passes(const SolverSnapshot& done) {
+  return done.statistics.iterations > 1 && !done.statistics.kept_form_factors;
+}
+
 /// The passes that a solve makes; not set where the solve chooses them and nothing tells how many.
 std::optional<Passes> passes_of(const SolverSnapshot& done, const SolveOptions& wanted) {
   const AccuracyGoal& goal = wanted.goal;
   if (!goal.is_set()) {
     const bool renews = traits_of(wanted.scheme).renews_directions;
     const int iterations = wanted.iterations > 0 ? wanted.iterations : wanted.averaged_iterations;
-    const double passes = 1.0 * wanted.directions * (renews ? std::max(iterations, 1) : 1);
+    const double passes = wanted.directions * (renews                 ? std::max(iterations, 1)
+                                               : repeats_passes(done) ? iterations_of(done)
+                                                                      : 1.0);
     return Passes{passes, passes};
   }
   if (!(goal.accuracy > 0)) {
     return std::nullopt;
+  }
+  const bool is_same = done.options.goal == goal;
+  if (is_same && done.accuracy && done.progress.finished) {
+    const auto passes = static_cast<double>(done.accuracy->passes_made);
+    return Passes{passes, passes};
   }
   Passes result{};
   const auto [error, made] = known_error(done, goal);
@@ -72,6 +107,10 @@ std::optional<Passes> passes_of(const SolverSnapshot& done, const SolveOptions& 
     result = {more * passes_of_percent.least, more * passes_of_percent.most};
   } else {
     return std::nullopt;
+  }
+  if (is_same) {  // and not finished
+    const double least = passes_begun(done);
+    result = {std::max(result.least, least), std::max(result.most, least)};
   }
   if (goal.passes > 0) {
     const auto limit = static_cast<double>(goal.passes);
@@ -87,18 +126,36 @@ int systems_of(const SolveOptions& options) {
   return replicas > 1 ? replicas + 1 : 1;
 }
 
+/// Wall time of the iterations of `done` when it ends, without their passes, s.
+double seconds_of_iterations(const SolverSnapshot& done) {
+  const SolveStatistics& s = done.statistics;
+  const auto made = static_cast<double>(s.iteration_records.size());
+  if (made < 2 || repeats_passes(done)) {  // the time of the first has that of passes
+    return s.seconds_iterate;
+  }
+  return s.seconds_iterate + (iterations_of(done) - made) * s.iteration_records.back().seconds;
+}
+
 /// Wall time of so many passes and of what follows them, s.
 double seconds_of(double passes, const SolverSnapshot& done, const SolveOptions& wanted) {
   const SolveStatistics& s = done.statistics;
-  const auto made = static_cast<double>(s.passes_made);
+  const double more = passes / static_cast<double>(s.passes_made);
   // A pass with linear functions takes about one and a half times as long.
   const double basis =
       (unknowns_of(wanted) > 1 ? 1.5 : 1) / (unknowns_of(done.options) > 1 ? 1.5 : 1);
-  // Directions meet pairs of patches that others have met, so that form factors grow slower.
-  const double iterate =
-      1.0 * systems_of(wanted) / systems_of(done.options) * std::sqrt(passes / made);
-  return basis * s.seconds_transfers / made * passes + s.seconds_bsp + s.seconds_first_shot +
-         iterate * s.seconds_iterate;
+  // Directions meet pairs of patches that others have met, so that form factors grow slower; lobes
+  // reflect the light of each pass.
+  const double iterate = 1.0 * systems_of(wanted) / systems_of(done.options) *
+                         (reflects_lobes(done) ? more : std::sqrt(more));
+  return basis * s.seconds_transfers * more + s.seconds_bsp + s.seconds_first_shot +
+         iterate * seconds_of_iterations(done);
+}
+
+/// Whether enough of `done` is finished to tell the time of another solve.
+bool tells_time(const SolverSnapshot& done) {
+  constexpr int fewest = 2;  // the first iteration has passes
+  return done.statistics.passes_made > 0 && done.statistics.seconds_transfers > 0 &&
+         (!reflects_lobes(done) || done.statistics.iterations >= fewest);
 }
 
 /// "3 s", "2 min", "5 h".
@@ -141,7 +198,7 @@ SolveCost cost_of(const SolverSnapshot* done, const SolveOptions& wanted, std::i
                  .seconds = {},
                  .most_seconds = {},
                  .memory = expected_memory(patches, wanted.replicas, unknowns_of(wanted))};
-  if (!done || !comparable(done->options, wanted) || done->statistics.passes_made == 0) {
+  if (!done || !comparable(done->options, wanted) || !tells_time(*done)) {
     return cost;
   }
   const std::optional<Passes> passes = passes_of(*done, wanted);

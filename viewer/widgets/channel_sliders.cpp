@@ -37,10 +37,8 @@ ChannelSliders::ChannelSliders(const char* name, const QString& title, int decim
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setHorizontalSpacing(8);
   grid->setVerticalSpacing(1);
-  // A unit is not broken at its slash.
-  auto* heading = new QLabel(QString(title).replace('/', QStringLiteral("\u2060/\u2060")));
+  auto* heading = named(part("heading"), new QLabel(title));
   set_strong(*heading);
-  heading->setWordWrap(true);
   together_ = named(part("together"), new QCheckBox(tr("together")),
                     tr("Keeps the proportions of red, green and blue, and so the hue"));
   together_->setChecked(true);

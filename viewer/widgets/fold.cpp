@@ -36,6 +36,23 @@ QFont FoldHeader::bold() const {
   return font;
 }
 
+/// Where the state begins, from the left.
+int FoldHeader::state_left() const { return minimumSizeHint().width() + gap; }
+
+QString FoldHeader::shown_state() const {
+  const QString between = QString::fromUtf8(separator);
+  const int room = width() - state_left();
+  const auto fits = [&](const QString& text) {
+    return fontMetrics().horizontalAdvance(text) <= room;
+  };
+  QString text = state_;
+  for (QStringList parts = state_.split(between); !parts.isEmpty() && !fits(text);) {
+    parts.removeLast();
+    text = (parts.join(between) + QStringLiteral(" …")).trimmed();
+  }
+  return text;
+}
+
 QSize FoldHeader::sizeHint() const {
   return {minimumSizeHint().width() + 2 * gap + fontMetrics().horizontalAdvance(state_),
           minimumSizeHint().height()};
@@ -72,13 +89,12 @@ void FoldHeader::paintEvent(QPaintEvent*) {
       &painter, this);
   painter.setFont(bold());
   painter.setPen(palette().color(QPalette::WindowText));
-  const QRect title(indent, 0, painter.fontMetrics().horizontalAdvance(text()), height());
+  const QRect title(indent, 0, width() - indent, height());
   painter.drawText(title, Qt::AlignVCenter, text());
   painter.setFont(font());
   painter.setPen(theme::ink_dim);
-  const QRect rest(title.right() + gap, 0, width() - title.right() - gap, height());
-  painter.drawText(rest, Qt::AlignVCenter,
-                   painter.fontMetrics().elidedText(state_, Qt::ElideRight, rest.width()));
+  const QRect rest(state_left(), 0, width() - state_left(), height());
+  painter.drawText(rest, Qt::AlignVCenter, shown_state());
   if (hasFocus()) {
     QStyleOptionFocusRect focus;
     focus.initFrom(this);

@@ -11,11 +11,16 @@ class FoldHeader : public QAbstractButton {
   Q_OBJECT
 
  public:
+  static constexpr const char* separator = " · ";
+
   FoldHeader(const QString& title, QWidget* parent);
 
-  /// Sets the dim text; its end is elided where it does not fit.
+  /// Sets the dim text, of parts with `separator` between them. Where it does not fit, its last
+  /// parts are omitted.
   void set_state(const QString& state);
   const QString& state() const { return state_; }
+  /// The part of state() that fits, with "…" for the rest.
+  QString shown_state() const;
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
 
@@ -26,6 +31,7 @@ class FoldHeader : public QAbstractButton {
 
  private:
   QFont bold() const;
+  int state_left() const;
 
   QString state_;
 };

@@ -74,12 +74,13 @@ bool RadiositySolver::Impl::advance_passes(int last, const RadiositySolver& self
                                            const Observer& observer) {
   const auto start = Clock::now();
   const double seconds_before = iteration.seconds, adding_before = timing.seconds_iterate;
+  const double passes_before = timing.seconds_transfers;
   // Wall time that all threads together did not spend on adding belongs to the passes.
   const int threads = std::min(input.threads, last - passes_done());
   const auto add_times = [&] {
     const double wall = seconds_since(start);
     const double adding = timing.seconds_iterate - adding_before;
-    timing.seconds_transfers += std::max(0.0, wall - adding / threads);
+    timing.seconds_transfers = passes_before + std::max(0.0, wall - adding / threads);
     iteration.seconds = seconds_before + wall;
   };
   const int known = plan.renews() ? 0 : statistics.areas().passes;
@@ -93,7 +94,7 @@ bool RadiositySolver::Impl::advance_passes(int last, const RadiositySolver& self
   loop.prepare = [&](int k, Pass& pass) { prepare_pass(k, known, pass); };
   loop.add = [&](int k, Pass pass) {
     add_pass(k, std::move(pass));
-    iteration.seconds = seconds_before + seconds_since(start);
+    add_times();  // an observer is told the time of the passes that it is told of
   };
   loop.settle = [&] { settle(); };
   loop.observe = [&](int) { return !observer || observer(self); };
