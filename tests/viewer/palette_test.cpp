@@ -4,6 +4,7 @@
 #include <QDockWidget>
 #include <QLineEdit>
 #include <QMenu>
+#include <QMenuBar>
 #include <QSet>
 #include <QTableView>
 #include <QToolButton>
@@ -11,7 +12,9 @@
 
 #include "patches/patch_table.h"
 #include "solved_window.h"
+#include "widgets/build.h"
 #include "widgets/command_palette.h"
+#include "widgets/theme.h"
 
 namespace transillum::viewer::palette_test {
 
@@ -182,6 +185,42 @@ class PaletteTest : public QObject {
     QVERIFY(palette.dialog);
     QTest::keyClick(palette.query, Qt::Key_Escape);
     QVERIFY(wait_for([&] { return palette.dialog.isNull(); }));
+  }
+
+  void what_a_disabled_menu_has_is_disabled_for_its_reason() {
+    const SolvedWindow shown("cornell-box");
+    QVERIFY(shown.ready);
+    QMenu* const outer = shown.window->menuBar()->actions().back()->menu()->addMenu("Outer");
+    QAction* const action = outer->addMenu("Inner")->addAction("Action of a disabled menu");
+    enable_if(*outer->menuAction(), false, "The reason of the test");
+    QVERIFY(action->isEnabled());
+    bool triggered = false;
+    connect(action, &QAction::triggered, this, [&triggered] { triggered = true; });
+    const OpenPalette palette(*shown.window);
+    QCOMPARE(palette.first("action of a disabled menu"), QString("Action of a disabled menu"));
+    QCOMPARE(palette.list->topLevelItem(0)->toolTip(0), QString("The reason of the test"));
+    QTest::keyClick(palette.query, Qt::Key_Return);
+    QVERIFY(palette.dialog);
+    QVERIFY(!triggered);
+  }
+
+  void has_a_border_in_both_themes() {
+    const SolvedWindow shown("cornell-box");
+    QVERIFY(shown.ready);
+    for (const bool dark : {false, true}) {
+      theme::apply(*qApp, {.dark = dark});
+      const OpenPalette palette(*shown.window);
+      QVERIFY(palette.dialog->isVisible());
+      const QImage image = palette.dialog->grab().toImage();
+      const int right = image.width() - 1, bottom = image.height() - 1;
+      for (const QPoint at : {QPoint(0, bottom / 2), QPoint(right, bottom / 2),
+                              QPoint(right / 2, 0), QPoint(right / 2, bottom)}) {
+        QCOMPARE(image.pixelColor(at), theme::accent);
+      }
+      save_picture(*palette.dialog, dark ? "palette-dark" : "palette-light");
+      palette.dialog->close();
+    }
+    theme::apply(*qApp);
   }
 
   void a_right_click_in_the_scene_offers_what_a_patch_can_do() {

@@ -8,6 +8,7 @@
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QLineEdit>
+#include <QPainter>
 #include <QRegularExpression>
 #include <QTimer>
 #include <QTreeWidget>
@@ -162,6 +163,13 @@ void CommandPalette::run(const QTreeWidgetItem* item) {
   // The call is made later: it may open a dialog, and this one must have been closed.
   QTimer::singleShot(0, parentWidget(), shown_[static_cast<std::size_t>(row)].run);
   close();
+}
+
+// A popup has no frame that would tell it from the panels behind it.
+void CommandPalette::paintEvent(QPaintEvent* event) {
+  QDialog::paintEvent(event);
+  QPainter(this).fillRect(rect(), theme::accent);
+  QPainter(this).fillRect(rect().adjusted(1, 1, -1, -1), palette().window());
 }
 
 bool CommandPalette::eventFilter(QObject* watched, QEvent* event) {

@@ -42,32 +42,46 @@ QString keys_of(const QAction& action) {
   return keys.join(QLatin1Char(' '));
 }
 
+/// What disables all actions of a menu.
+struct Obstacle {
+  bool exists = false;
+  QString why = {};  ///< may be empty
+};
+
+/// The obstacle of what a control leads to, within another obstacle.
+template <class Control>
+Obstacle obstacle_of(const Control& control, const Obstacle& outer) {
+  return outer.exists ? outer
+                      : Obstacle{!control.isEnabled(), control.property(why_disabled).toString()};
+}
+
 /// @param taken  actions that the palette has already, or in another form
-void add_action(QAction& action, const QString& place, std::set<const QAction*>& taken,
-                std::vector<PaletteEntry>& entries) {
+void add_action(QAction& action, const QString& place, const Obstacle& outer,
+                std::set<const QAction*>& taken, std::vector<PaletteEntry>& entries) {
   if (action.isSeparator() || !action.isVisible() || action.text().isEmpty() ||
       !taken.insert(&action).second) {
     return;
   }
-  entries.push_back({without_marks(action.text()), place, keys_of(action), action.isEnabled(),
+  const Obstacle obstacle = obstacle_of(action, outer);
+  entries.push_back({without_marks(action.text()), place, keys_of(action), !obstacle.exists,
                      [action = QPointer<QAction>(&action)] {
                        if (action) {
                          action->trigger();
                        }
                      },
-                     action.property(why_disabled).toString()});
+                     obstacle.why});
 }
 
-/// Adds the actions of a menu and of the menus in it.
-void add_menu(QMenu& menu, const QString& place, std::set<const QAction*>& taken,
-              std::vector<PaletteEntry>& entries) {
+/// Adds the actions of a menu and of the menus in it. An action in a disabled menu is not possible.
+void add_menu(QMenu& menu, const QString& place, const Obstacle& outer,
+              std::set<const QAction*>& taken, std::vector<PaletteEntry>& entries) {
   emit menu.aboutToShow();  // some menus are filled then
   for (QAction* action : menu.actions()) {
     if (!action->menu()) {
-      add_action(*action, place, taken, entries);
+      add_action(*action, place, outer, taken, entries);
     } else if (taken.insert(action).second) {
       add_menu(*action->menu(), place + QStringLiteral(" › ") + without_marks(action->text()),
-               taken, entries);
+               obstacle_of(*action, outer), taken, entries);
     }
   }
 }
@@ -124,13 +138,14 @@ std::vector<PaletteEntry> PaletteActions::entries() {
   }
   for (const QAction* action : frame_.window.menuBar()->actions()) {
     if (action->menu()) {
-      add_menu(*action->menu(), without_marks(action->text()), taken, entries);
+      add_menu(*action->menu(), without_marks(action->text()), obstacle_of(*action, {}), taken,
+               entries);
     }
   }
   for (const QToolButton* button :
        {frame_.page.findChild<QToolButton*>(QStringLiteral("show")),
         static_cast<QToolButton*>(frame_.page.findChild<CameraMenu*>())}) {
-    add_menu(*button->menu(), button->text().trimmed(), taken, entries);
+    add_menu(*button->menu(), button->text().trimmed(), obstacle_of(*button, {}), taken, entries);
   }
   add_panels(entries);
   add_quantities(entries);
@@ -160,7 +175,8 @@ void PaletteActions::add_buttons(const QWidget& widget, const QString& place,
     }
     if (tool && tool->menu()) {
       if (taken.insert(tool->menu()->menuAction()).second) {
-        add_menu(*tool->menu(), place + QStringLiteral(" › ") + text_of(*button), taken, entries);
+        add_menu(*tool->menu(), place + QStringLiteral(" › ") + text_of(*button),
+                 obstacle_of(*button, {}), taken, entries);
       }
       continue;
     }
@@ -181,7 +197,7 @@ void PaletteActions::add_other_actions(std::set<const QAction*>& taken,
                                        std::vector<PaletteEntry>& entries) {
   for (QAction* action : frame_.window.findChildren<QAction*>()) {
     if (!action->objectName().isEmpty() && !action->menu()) {
-      add_action(*action, tr("Window"), taken, entries);
+      add_action(*action, tr("Window"), {}, taken, entries);
     }
   }
 }
