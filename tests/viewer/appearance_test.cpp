@@ -290,6 +290,34 @@ class AppearanceTest : public QObject {
     QVERIFY(map->isVisible());
   }
 
+  // Their effect is seen in the scene.
+  void panels_that_change_the_scene_fill_the_screen_with_it() {
+    const SolvedWindow solved("furnace");
+    QVERIFY(solved.ready);
+    TestWindow& window = *solved.window;
+    auto* full = window.findChild<QAction*>("full_screen");
+    for (const char* panel : {"settings", "material", "move"}) {
+      window.views().docks.bring_to_front(panel);
+      auto* dock = window.findChild<QDockWidget*>(QString(panel) + "_dock");
+      QVERIFY(wait_for([&] { return dock->isVisible(); }));
+      QCursor::setPos(dock->mapToGlobal(dock->rect().center()));
+      QVERIFY(wait_for([&] {
+        const QWidget* under = QApplication::widgetAt(QCursor::pos());
+        return under && dock->isAncestorOf(under);
+      }));
+      full->trigger();
+      QVERIFY(wait_for([&] { return window.isFullScreen(); }, 5000));
+      QVERIFY(wait_for([&] { return solved.scene_view->width() > 0.4 * window.width(); }, 5000));
+      QVERIFY2(dock->isVisible() && solved.scene_view->isVisible(), panel);
+      QVERIFY(!window.findChild<QDockWidget*>("map_dock")->isVisible());
+      const QRect beside(dock->mapTo(&window, QPoint()), dock->size());
+      const QRect scene(solved.scene_view->mapTo(&window, QPoint()), solved.scene_view->size());
+      QVERIFY(!beside.intersects(scene));
+      full->trigger();
+      QVERIFY(wait_for([&] { return !window.isFullScreen(); }, 5000));
+    }
+  }
+
   void full_screen_returns_to_a_maximized_window() {
     const auto window = make_active_window();
     window->showMaximized();

@@ -8,15 +8,30 @@
 #include <QMenuBar>
 #include <QStatusBar>
 #include <QToolButton>
+#include <algorithm>
+#include <iterator>
 
 #include "widgets/build.h"
 
 namespace transillum::viewer {
 
+namespace {
+
+/// Whether a panel is of controls whose effect is seen in the scene: alone, it would be of no use.
+bool changes_scene(const QWidget& dock) {
+  constexpr const char* names[] = {"settings_dock", "material_dock", "move_dock"};
+  return std::any_of(std::begin(names), std::end(names), [&dock](const char* name) {
+    return dock.objectName() == QLatin1String(name);
+  });
+}
+
+}  // namespace
+
 FullScreen::FullScreen(QMainWindow& window) : QObject(&window), window_(window) {
-  action_ =
-      make_action(this, "full_screen", tr("Full screen"),
-                  tr("Show only the view under the pointer, on the whole screen"), Qt::Key_F11);
+  action_ = make_action(this, "full_screen", tr("Full screen"),
+                        tr("Show only the view under the pointer, on the whole screen; settings, "
+                           "materials and what moves faces have the scene beside them"),
+                        Qt::Key_F11);
   action_->setCheckable(true);
   connect(action_, &QAction::triggered, this, &FullScreen::toggle);
   leave_ = named("leave_full_screen", new QToolButton(&window_), tr("Leave the full screen (Esc)"));
@@ -63,7 +78,14 @@ void FullScreen::toggle() {
   if (!view) {
     view = view_of(QApplication::focusWidget());
   }
-  show_only({view ? view : window_.centralWidget()});
+  QWidget* scene = window_.centralWidget();
+  if (!view || view == scene) {
+    show_only({scene});
+  } else if (changes_scene(*view)) {
+    show_only({view, scene});
+  } else {
+    show_only({view});
+  }
 }
 
 void FullScreen::show_only(const QList<QWidget*>& views) {

@@ -13,8 +13,9 @@ class QWidget;
 namespace transillum::viewer {
 
 /// Shows some views on the whole screen and back; its action shows the view under the pointer, else
-/// the one with the keyboard focus. The other parts of the window are hidden; no view is
-/// reparented, because OpenGL views do not survive that on all systems.
+/// the one with the keyboard focus. Panels that change the scene have it beside them. The other
+/// parts of the window are hidden; no view is reparented, because OpenGL views do not survive that
+/// on all systems.
 class FullScreen : public QObject {
   Q_OBJECT
 
