@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Opening scenes in the window: what is loaded, how many patches it gets, and running its solve.
+#include <QDockWidget>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMessageBox>
@@ -189,10 +190,42 @@ class OpeningTest : public QObject {
     for (const auto* card : window->findChild<StartPage*>()->findChildren<QAbstractButton*>()) {
       if (card->property("title_fits").isValid()) {
         QVERIFY2(card->property("title_fits").toBool(), qPrintable(card->text()));
-        lessons += card->objectName().startsWith("lesson_") ? 1 : 0;
+        const bool is_lesson = card->objectName().startsWith("lesson_");
+        QVERIFY2(!is_lesson || card->property("text_fits").toBool(), qPrintable(card->text()));
+        lessons += is_lesson ? 1 : 0;
       }
     }
     QVERIFY(lessons >= 11);
+  }
+
+  // The type of a projector is larger, and the page is still as wide as the screen.
+  void the_start_page_of_a_projector_is_alone_and_is_not_scrolled_sideways() {
+    const auto window = make_window(8);
+    window->resize(1280, 720);
+    const auto* page = window->findChild<StartPage*>();
+    const auto* timeline = window->findChild<QDockWidget*>("timeline_dock");
+    QVERIFY(wait_for([&] { return page->isVisible(); }));
+    window->findChild<QAction*>("projector")->trigger();
+    QVERIFY(wait_for([&] { return window->isFullScreen() && comes_to_rest(*window); }));
+    QVERIFY(page->isVisible() && !timeline->isVisible());
+    for (const QSize& size : {QSize(1280, 720), QSize(1024, 700)}) {
+      window->setFixedSize(size);
+      QVERIFY(wait_for([&] { return page->width() <= size.width(); }));
+      QVERIFY(comes_to_rest(*window));
+      QCOMPARE(page->horizontalScrollBar()->maximum(), 0);
+      for (const auto* card : page->findChildren<QAbstractButton*>()) {
+        const QRect place(card->mapTo(page->viewport(), QPoint()), card->size());
+        QVERIFY2(
+            !card->isVisible() || (place.left() >= 0 && place.right() < page->viewport()->width()),
+            qPrintable(card->text()));
+      }
+      save_picture(*window, QString("projector-start-%1").arg(size.width()));
+    }
+    // The scene has its timeline.
+    window->open("furnace");
+    QVERIFY(wait_for([&] { return !page->isVisible() && timeline->isVisible(); }));
+    QVERIFY(window->isFullScreen());
+    window->findChild<QAction*>("projector")->trigger();
   }
 
   // A page as wide as a long name would have to be scrolled sideways.

@@ -124,10 +124,20 @@ class StartCard : public QAbstractButton {
     const int most = (lines - 1) * metrics.lineSpacing() + metrics.height();
     return height_of(text(), metrics, text_room().width()) <= most;
   }
+  /// Whether the texts are whole that a card has room for beside its picture. Other cards have as
+  /// much of a summary as fits.
+  bool text_fits(double type) const {
+    const bool is_note_whole =
+        look_ != Look::picture_left ||
+        QFontMetrics(scaled_font(font(), small_type, false)).horizontalAdvance(note_) <=
+            text_room().width();
+    return look_ == Look::picture_above || (title_fits(type) && is_note_whole);
+  }
   /// @param type  factor of the size of the title's letters
   void set_title_type(double type) {
     title_type_ = type;
     setProperty("title_fits", title_fits(type));
+    setProperty("text_fits", text_fits(type));
     update();
   }
 
@@ -395,17 +405,26 @@ void StartPage::arrange() {
 
 void StartPage::place(Grid& grid, int room) const {
   const int least = theme::scaled(least_card_width) + card_gap;
-  const int columns = std::clamp((room + card_gap) / least, 1, grid.most_columns);
-  const int across = (room - (columns - 1) * card_gap) / columns;
-  for (int k = 0; k < grid.cards.size(); ++k) {
-    grid.cards[k]->set_width(across, viewport()->height() < theme::scaled(low_height));
-    grid.layout->addWidget(grid.cards[k], k / columns, k % columns);
+  int columns = std::clamp((room + card_gap) / least, 1, grid.most_columns);
+  const auto fit = [&grid](double type) {
+    return std::all_of(grid.cards.begin(), grid.cards.end(),
+                       [type](const StartCard* card) { return card->text_fits(type); });
+  };
+  const auto set_columns = [&](int count) {
+    const int across = (room - (count - 1) * card_gap) / count;
+    for (StartCard* card : grid.cards) {
+      card->set_width(across, viewport()->height() < theme::scaled(low_height));
+    }
+  };
+  set_columns(columns);
+  while (columns > 1 && !fit(small_type)) {
+    set_columns(--columns);
   }
   // One size for all, so that all are whole where it is possible.
-  const bool fit = std::all_of(grid.cards.begin(), grid.cards.end(),
-                               [](const StartCard* card) { return card->title_fits(1); });
-  for (StartCard* card : grid.cards) {
-    card->set_title_type(fit ? 1 : small_type);
+  const double type = fit(1) ? 1 : small_type;
+  for (int k = 0; k < grid.cards.size(); ++k) {
+    grid.cards[k]->set_title_type(type);
+    grid.layout->addWidget(grid.cards[k], k / columns, k % columns);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "lessons/lesson_panel.h"
 #include "scene/color_controls.h"
+#include "scene/scene_page.h"
 #include "stepping/timeline_bar.h"
 #include "stepping/timeline_lanes.h"
 #include "transillum/at.h"
@@ -33,6 +34,7 @@ ProjectorMode::ProjectorMode(const WindowFrame& frame, DockLayouts& docks, Lesso
   connect(&full_screen_, &FullScreen::ended, this, [this] { docks_.hold(false); });
   connect(&full_screen_, &FullScreen::left, this, [this] { appearance_.set_projects(false); });
   connect(&lessons_, &LessonPanel::page_shown, this, &ProjectorMode::follow_page);
+  connect(&frame_.page, &ScenePage::start_shown, this, &ProjectorMode::follow_page);
   frame_.window.installEventFilter(this);
 }
 
@@ -75,8 +77,11 @@ QDockWidget* ProjectorMode::large() const {
 }
 
 QList<QWidget*> ProjectorMode::views() const {
-  QList<QWidget*> views{dock("timeline")};
   QWidget* scene = frame_.window.centralWidget();
+  if (frame_.page.shows_start()) {
+    return {scene};
+  }
+  QList<QWidget*> views{dock("timeline")};
   if (lessons_.lesson() < 0) {
     return views << scene;
   }
@@ -115,7 +120,7 @@ void ProjectorMode::project(bool on) {
 }
 
 void ProjectorMode::arrange() {
-  if (!projecting_) {
+  if (!projecting_ || projected_.size() < 2) {
     return;
   }
   // Beside the page are the scene and a column of panels, or one panel that is larger.

@@ -42,7 +42,7 @@ class ProjectorMode : public QObject {
   /// The panel that the page shows large; null without one.
   QDockWidget* large() const;
   /// The timeline, the page, and beside it the scene and the panel that the page wants to be large,
-  /// or those that it needs.
+  /// or those that it needs; the first page alone.
   QList<QWidget*> views() const;
   bool shows_scene_and_panels() const;
 
