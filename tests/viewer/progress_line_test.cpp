@@ -8,6 +8,7 @@
 #include <QProgressBar>
 #include <QTest>
 
+#include "model/solver/session_snapshot.h"
 #include "registered.h"
 #include "solved_snapshot.h"
 #include "support/number_text.h"
@@ -100,8 +101,8 @@ class ProgressLineTest : public QObject {
     QVERIFY(!bar.isHidden());
   }
 
-  // A full bar does not say that the solve continues.
-  void between_iterations_a_full_bar_says_that_the_next_begins() {
+  // A bar that is full, or has the value of before, does not say that the solve continues.
+  void between_iterations_an_empty_bar_says_that_the_next_begins() {
     const auto snapshot = test::solved_snapshot("cornell-box", 32);
     snapshot->progress.iteration = 2;
     snapshot->progress.direction = 0;
@@ -110,10 +111,56 @@ class ProgressLineTest : public QObject {
     const auto& bar = *line.findChild<QProgressBar*>("progress");
     line.show_state(RunState::running);
     line.show_snapshot(snapshot);
-    QCOMPARE(bar.value(), bar.maximum());
+    QVERIFY(bar.value() < bar.minimum() && bar.text().isEmpty());
     QCOMPARE(phase.text(), QString("2 iterations done, the next begins"));
     line.show_state(RunState::paused);
     QCOMPARE(phase.text(), QString("Paused: 2 iterations done"));
+    auto within = std::make_shared<SolverSnapshot>(*snapshot);
+    within->progress.direction = 8;
+    line.show_snapshot(within);
+    QCOMPARE(bar.value(), 8);
+    line.show_snapshot(snapshot);
+    QVERIFY(bar.value() < bar.minimum());
+  }
+
+  // Iterations without passes have no directions to count.
+  void iterations_from_kept_form_factors_have_a_progress_of_their_own() {
+    const auto loaded = test::solved_snapshot("cornell-box", 32)->loaded;
+    SolveOptions options{.directions = 32};
+    options.first_shot.reset();
+    for (const int most : {0, 5}) {
+      options.iterations = most;
+      SolveSession session({.scene = loaded->scene, .options = options, .tree = loaded->tree});
+      session.prepare();
+      ProgressLine line;
+      const auto& bar = *line.findChild<QProgressBar*>("progress");
+      line.show_state(RunState::running);
+      double before = 0;
+      while (true) {
+        session.advance(SolveSession::Until::iteration);
+        if (session.finished()) {
+          break;
+        }
+        line.show_snapshot(std::make_shared<SolverSnapshot>(snapshot_of(session, loaded)));
+        const double fraction = 1.0 * bar.value() / bar.maximum();
+        QVERIFY2(fraction > before && fraction < 1, qPrintable(bar.text()));
+        before = fraction;
+      }
+      QVERIFY2(before > 0.75, qPrintable(QString::number(before)));
+    }
+  }
+
+  // A bar without an end moves on by itself.
+  void what_is_not_under_way_does_not_move() {
+    ProgressLine line;
+    const auto& bar = *line.findChild<QProgressBar*>("progress");
+    for (const RunState state : {RunState::paused, RunState::empty, RunState::finished}) {
+      line.show_state(RunState::loading);
+      line.show_loading("Reading", -1);
+      QVERIFY(!bar.isHidden() && bar.maximum() == 0);
+      line.show_state(state);
+      QVERIFY(bar.isHidden() && bar.maximum() > 0);
+    }
   }
 
   void a_surface_in_the_dark_is_said_to_be_so() {

@@ -7,7 +7,9 @@
 #include <QFileInfo>
 #include <QLabel>
 #include <QProgressBar>
+#include <algorithm>
 #include <climits>
+#include <cmath>
 #include <utility>
 
 #include "model/snapshot_values.h"
@@ -101,6 +103,35 @@ QString finished_text(const SolverSnapshot& snapshot) {
 
 bool is_within_iteration(const SolveProgress& progress) {
   return progress.direction > 0 && progress.direction < progress.passes;
+}
+
+double light_left(const IterationRecord& record) {
+  return std::max(record.remainder, record.remainder_dimmest);
+}
+
+// The fraction of the iterations that is done, by their number or by how far the light that is left
+// has decreased, on a logarithmic scale, from the first of them to the tolerance.
+double fraction_of_iterations(const SolverSnapshot& snapshot) {
+  const SolveOptions& options = snapshot.options;
+  if (options.iterations > 0) {
+    return std::min(1.0, 1.0 * snapshot.progress.iteration / options.iterations);
+  }
+  const auto& records = snapshot.statistics.iteration_records;
+  if (records.empty()) {
+    return 0;
+  }
+  // The first has done its part, too.
+  const double factor = std::clamp(snapshot.statistics.rho_max, 0.1, 0.9);
+  const double first = light_left(records.front()), now = light_left(records.back());
+  const double start = (std::isfinite(first) ? first : 1.0) / factor;
+  const double done = std::log(start / now) / std::log(start / options.tolerance);
+  return now > 0 ? std::clamp(done, 0.0, 1.0) : 1.0;
+}
+
+// Whether iterations take their form factors from those that are kept, and make no passes.
+bool iterates_without_passes(const SolverSnapshot& snapshot) {
+  return snapshot.progress.iteration > 0 && snapshot.statistics.kept_form_factors &&
+         !traits_of(snapshot.options.scheme).renews_directions;
 }
 
 // Where a solve is that has not finished.
@@ -212,6 +243,12 @@ void ProgressLine::show_state(RunState state) {
   state_ = state;
   if (state == RunState::empty) {
     phase_->setText(tr("No scene"));
+  }
+  // A bar without an end would move on, whatever has become of the work.
+  const bool is_busy = bar_->maximum() == 0;
+  if (state == RunState::empty || (is_busy && state != RunState::loading)) {
+    bar_->setRange(0, 1);
+    bar_->reset();
     bar_->setVisible(false);
   }
   show_solve();
@@ -237,8 +274,7 @@ void ProgressLine::show_solve() {
     return;
   }
   const bool within = is_within_iteration(progress);
-  bar_->setRange(0, std::max(progress.passes, 1));
-  bar_->setValue(!within && progress.iteration > 0 ? progress.passes : progress.direction);
+  show_bar(progress, within);
   const bool reached_with_materials = has_light(*snapshot_) && !snapshot_->materials;
   phase_->setToolTip(finished && snapshot_->accuracy && reached_with_materials
                          ? accuracy_tip(*snapshot_->accuracy)
@@ -253,6 +289,24 @@ void ProgressLine::show_solve() {
   time_->setText(timed && within ? tr("%1 left").arg(duration_text(progress.seconds_left))
                                  : QString());
   time_->setToolTip(tr("Time left in this iteration"));
+}
+
+/// The bar is empty between iterations that make passes.
+void ProgressLine::show_bar(const SolveProgress& progress, bool within) {
+  constexpr int steps = 1000;
+  if (!within && iterates_without_passes(*snapshot_)) {
+    bar_->setRange(0, steps);
+    bar_->setValue(static_cast<int>(steps * fraction_of_iterations(*snapshot_)));
+    bar_->setToolTip(tr("Iterations done, by the light that is still to be reflected"));
+    return;
+  }
+  bar_->setRange(0, std::max(progress.passes, 1));
+  bar_->setToolTip(tr("Directions of this iteration"));
+  if (within) {
+    bar_->setValue(progress.direction);
+  } else {
+    bar_->reset();
+  }
 }
 
 /// With lobes, passes are the smaller part of an iteration.
