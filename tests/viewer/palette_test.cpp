@@ -219,6 +219,7 @@ class PaletteTest : public QObject {
       }
       save_picture(*palette.dialog, dark ? "palette-dark" : "palette-light");
       palette.dialog->close();
+      QVERIFY(wait_for([&palette] { return palette.dialog.isNull(); }));
     }
     theme::apply(*qApp);
   }

@@ -171,16 +171,17 @@ ShortTime short_time(double seconds) {
                                  : ShortTime{std::round(seconds / 86400), tr("days")};
 }
 
+// In few characters, so that a line of a narrow panel has room for it.
 QString time_text(const SolveCost& cost) {
-  const double seconds = *cost.seconds, most = *cost.most_seconds;
-  const QString time = duration_text(seconds), longest = duration_text(most);
-  if (most < 1) {
+  const ShortTime least = short_time(*cost.seconds), most = short_time(*cost.most_seconds);
+  const QString to = tr("%1 %2").arg(most.value).arg(most.unit);
+  if (*cost.most_seconds < 1) {
     return tr("less than 1 s");
   }
-  if (time != longest) {
-    return seconds < 1 ? tr("up to %1").arg(longest) : tr("%1 to %2").arg(time, longest);
+  if (least.unit != most.unit) {
+    return tr("up to %1").arg(to);
   }
-  return time.startsWith("over") ? time : tr("about %1").arg(time);
+  return least.value == most.value ? tr("about %1").arg(to) : tr("%1–%2").arg(least.value).arg(to);
 }
 
 QString memory_text(std::uint64_t bytes) {

@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "widgets/count_box.h"
 
-#include <QRegularExpression>
 #include <algorithm>
+#include <iterator>
 
 #include "support/number_text.h"
 
@@ -10,9 +10,11 @@ namespace transillum::viewer {
 
 namespace {
 
-QString without_spaces(QString text) {
-  static const QRegularExpression spaces(QStringLiteral("\\s"));
-  return text.remove(spaces);
+QString without_spaces(const QString& text) {
+  QString rest;
+  std::copy_if(text.begin(), text.end(), std::back_inserter(rest),
+               [](QChar letter) { return !letter.isSpace(); });
+  return rest;
 }
 
 }  // namespace
