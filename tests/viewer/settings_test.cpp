@@ -341,7 +341,7 @@ class SettingsTest : public QObject {
     QCOMPARE(number_text(2013), count_text(2013));
     QCOMPARE(number_text(999.5), QString("999.5"));
     QCOMPARE(number_text(999.96), count_text(1000));
-    // What is typed may have spaces or none, as may a number that is pasted.
+    // Typed numbers may have spaces or none, as may a number that is pasted.
     CountBox box;
     box.setRange(0, 100'000);
     box.setPrefix("about ");
@@ -356,7 +356,7 @@ class SettingsTest : public QObject {
     }
   }
 
-  // No control above the sections, and no section above the sky, moves while a solve goes on.
+  // No control above the sections, and no section above the sky, moves during a solve.
   void controls_keep_their_places() {
     const SolvedWindow solved("cornell-box", {.directions = 8});
     QVERIFY(solved.ready);

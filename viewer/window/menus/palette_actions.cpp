@@ -42,7 +42,7 @@ QString keys_of(const QAction& action) {
   return keys.join(QLatin1Char(' '));
 }
 
-/// What disables all actions of a menu.
+/// The reason why all actions of a menu are disabled.
 struct Obstacle {
   bool exists = false;
   QString why = {};  ///< may be empty
