@@ -51,7 +51,7 @@ class Shards : public ::testing::Test {
 };
 
 TEST_F(Shards, HaveTheBitsOfOneSolve) {
-  std::vector<SolveOptions> all(7, options_);
+  std::vector<SolveOptions> all(8, options_);
   all[1].two_way = false;
   all[2].replicas = 5;
   all[2].first_shot = 0;
@@ -60,6 +60,8 @@ TEST_F(Shards, HaveTheBitsOfOneSolve) {
   all[4].normalize = Normalization::symmetric;
   all[5].memory = 1;  // the passes are read in every iteration
   all[6].engine = Engine::zbuffer;
+  all[7].sky.sun.irradiance = {3, 2, 1};
+  all[7].sky.sun.direction = normalized(Vec3{0.1, 0.2, 1});
   for (const SolveOptions& options : all) {
     const Solution whole = solve(scene_, options);
     for (const int count : {1, 3, 25}) {

@@ -115,7 +115,8 @@ void SolverInput::prepare() {
     seconds_bsp = seconds_since(start);
   }
   require_engine();
-  sun = sun_light(scene, tree, options, requested, engine);
+  // One that was passed in may know the directions of the passes only, as shards do.
+  sun = sun_light(scene, tree, options, requested, makes_engine_ ? engine : TransferEngine());
   unknowns = std::make_shared<const Unknowns>(*scene, options.basis, *shot, sun);
 }
 
