@@ -107,6 +107,27 @@ TEST(BspBuilder, CutsNoConvexSurface) {
   }
 }
 
+/// Planes through patches of 1 cm would miss the end of a strip of 100 m by the rounding of
+/// corners.
+TEST(BspBuilder, PutsAllPatchesOfAFaceInItsPlane) {
+  const Vec3 along = normalized({3, -2, 1}), across = normalized(cross(along, {1, 5, 2}));
+  for (const double height : {0.0, 2.7, 31.1}) {
+    const Vec3 start{0.3, -0.7, height}, end = start + 100 * along, width = 0.1 * across;
+    Sketch sketch;
+    sketch.face({start, end, end + width, start + width}, sketch.material(0.5, 1));
+    const auto scene = sketch.scene({.max_patch_area = 1.01e-4});
+    const BspTree tree(*scene);
+    EXPECT_GE(scene->patch_count(), 99'000);
+    ASSERT_EQ(tree.nodes().size(), 1U) << height;
+    const BspTree::Plane& plane = tree.nodes()[0].plane;
+    const double rounding = BspTree::thickness(*scene) / 16;
+    for (const Vec3& p : scene->points()) {
+      ASSERT_LE(std::abs(dot(plane.normal, p) - plane.offset), rounding);
+    }
+    EXPECT_EQ(tree.fragments().size(), scene->pieces().size());
+  }
+}
+
 TEST(BspBuilder, MakesTheSameTreeForAnyNumberOfThreads) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);

@@ -233,6 +233,7 @@ void ProgressLine::show_loading(const QString& phase, double fraction) {
   }
   phase_->setText(phase + QStringLiteral("…"));
   bar_->setVisible(true);
+  bar_->setToolTip({});
   bar_->setRange(0, fraction < 0 ? 0 : 1000);
   bar_->setValue(static_cast<int>(1000 * fraction));
   rate_->clear();
@@ -311,6 +312,7 @@ void ProgressLine::show_bar(const SolveProgress& progress, bool within) {
 
 /// With lobes, passes are the smaller part of an iteration.
 void ProgressLine::show_stage_of_lobes(const SolveProgress& progress) {
+  bar_->setToolTip({});
   bar_->setRange(0, 1000);
   bar_->setValue(static_cast<int>(1000 * progress.stage_fraction));
   phase_->setText(progress.stage == SolveProgress::Stage::scaling_lobes

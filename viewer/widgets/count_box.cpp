@@ -27,6 +27,11 @@ int CountBox::valueFromText(const QString& text) const {
   if (!specialValueText().isEmpty() && text == specialValueText()) {
     return minimum();
   }
+  return number_in(text).toInt();
+}
+
+/// The digits between prefix and suffix: without spaces and commas.
+QString CountBox::number_in(const QString& text) const {
   QString number = without_spaces(text);
   const QString before = without_spaces(prefix()), after = without_spaces(suffix());
   if (!before.isEmpty() && number.startsWith(before)) {
@@ -35,7 +40,7 @@ int CountBox::valueFromText(const QString& text) const {
   if (!after.isEmpty() && number.endsWith(after)) {
     number.chop(after.size());
   }
-  return number.toInt();
+  return number.remove(',');
 }
 
 // The base class knows which texts are numbers in its range, but not the spaces.
@@ -43,12 +48,11 @@ QValidator::State CountBox::validate(QString& text, int& position) const {
   if (!specialValueText().isEmpty() && text == specialValueText()) {
     return QValidator::Acceptable;
   }
-  QString plain = text;
-  plain.remove(QChar(0x2009));
+  QString plain = prefix() + number_in(text) + suffix();
   int at = std::min(position, static_cast<int>(plain.size()));
   return QSpinBox::validate(plain, at);
 }
 
-void CountBox::fixup(QString& text) const { text.remove(QChar(0x2009)); }
+void CountBox::fixup(QString& text) const { text = prefix() + number_in(text) + suffix(); }
 
 }  // namespace transillum::viewer

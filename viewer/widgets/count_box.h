@@ -6,7 +6,7 @@
 namespace transillum::viewer {
 
 /// A spin box of a count, written like other counts of the window: 2 013, by count_text(). A number
-/// may be typed with or without spaces.
+/// may be typed with or without spaces or commas.
 class CountBox : public QSpinBox {
  public:
   explicit CountBox(QWidget* parent = nullptr);
@@ -16,6 +16,9 @@ class CountBox : public QSpinBox {
   int valueFromText(const QString& text) const override;
   QValidator::State validate(QString& text, int& position) const override;
   void fixup(QString& text) const override;
+
+ private:
+  QString number_in(const QString& text) const;
 };
 
 }  // namespace transillum::viewer

@@ -46,11 +46,15 @@ QString FoldHeader::shown_state() const {
     return fontMetrics().horizontalAdvance(text) <= room;
   };
   QString text = state_;
-  for (QStringList parts = state_.split(between); !parts.isEmpty() && !fits(text);) {
+  QStringList parts = state_.split(between);
+  while (parts.size() > 1 && !fits(text)) {
     parts.removeLast();
-    text = (parts.join(between) + QStringLiteral(" …")).trimmed();
+    text = parts.join(between) + QStringLiteral(" …");
   }
-  return text;
+  if (!fits(text)) {
+    text = fontMetrics().elidedText(parts.front(), Qt::ElideRight, room);
+  }
+  return fits(text) ? text : QString();
 }
 
 QSize FoldHeader::sizeHint() const {

@@ -16,7 +16,7 @@ class FoldHeader : public QAbstractButton {
   FoldHeader(const QString& title, QWidget* parent);
 
   /// Sets the dim text, of parts with `separator` between them. Where it does not fit, its last
-  /// parts are omitted.
+  /// parts are omitted, at last the end of the first.
   void set_state(const QString& state);
   const QString& state() const { return state_; }
   /// The part of state() that fits, with "…" for the rest.

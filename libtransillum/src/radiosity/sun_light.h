@@ -28,7 +28,7 @@ std::vector<SunRay> rays_of(const Sun& sun);
 
 /// Computes the light of `options.sky.sun`; nothing without one.
 /// @param tree of the scene; made where null.
-/// @param engine of the solve, used if it is `fast`; null: made here.
+/// @param engine of the solve, used if it is `fast`; made where null.
 /// @throws Canceled
 SunLight sun_light(const std::shared_ptr<const Scene>& scene,
                    const std::shared_ptr<const BspTree>& tree, const SolveOptions& options,

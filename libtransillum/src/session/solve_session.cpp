@@ -156,16 +156,16 @@ bool SolveSession::Impl::advance_stage(SolverUntil until, const std::function<bo
 bool SolveSession::Impl::begin_next() {
   if (plan && !next) {
     best = solver->solution();
-    next =
-        plan->next({.scene = *scene,
-                    .options = solver->options(),
-                    .radiosity = best->radiosity,
-                    .statistics = best->statistics,
-                    .error = best->error,
-                    .shot = shot.get(),
-                    .seconds_preparing = request.sums->from_first(seconds_bsp + seconds_first_shot),
-                    .seconds_first_shot = request.sums->from_first(seconds_first_shot)},
-                   request.sums->from_first(seconds()));
+    next = plan->next({.scene = *scene,
+                       .options = solver->options(),
+                       .radiosity = best->radiosity,
+                       .statistics = best->statistics,
+                       .error = best->error,
+                       .shot = shot.get(),
+                       .seconds_preparing = request.sums->from_first(
+                           seconds_bsp + best->statistics.seconds_bsp + seconds_first_shot),
+                       .seconds_first_shot = request.sums->from_first(seconds_first_shot)},
+                      request.sums->from_first(seconds()));
   }
   if (plan && next != AccuracyPlan::Next::done) {
     if (next == AccuracyPlan::Next::replica) {

@@ -145,7 +145,8 @@ std::vector<PaletteEntry> PaletteActions::entries() {
   for (const QToolButton* button :
        {frame_.page.findChild<QToolButton*>(QStringLiteral("show")),
         static_cast<QToolButton*>(frame_.page.findChild<CameraMenu*>())}) {
-    add_menu(*button->menu(), button->text().trimmed(), obstacle_of(*button, {}), taken, entries);
+    add_menu(*button->menu(), button->text().trimmed(),
+             obstacle_of(*button->menu()->menuAction(), obstacle_of(*button, {})), taken, entries);
   }
   add_panels(entries);
   add_quantities(entries);
@@ -176,7 +177,8 @@ void PaletteActions::add_buttons(const QWidget& widget, const QString& place,
     if (tool && tool->menu()) {
       if (taken.insert(tool->menu()->menuAction()).second) {
         add_menu(*tool->menu(), place + QStringLiteral(" › ") + text_of(*button),
-                 obstacle_of(*button, {}), taken, entries);
+                 obstacle_of(*tool->menu()->menuAction(), obstacle_of(*button, {})), taken,
+                 entries);
       }
       continue;
     }

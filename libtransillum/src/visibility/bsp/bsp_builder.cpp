@@ -270,13 +270,26 @@ BspTree::Plane BspBuilder::plane_of(std::span<const PointId> points) const {
   return {normal, dot(normal, origin + sum / static_cast<double>(points.size()))};
 }
 
-/// The plane through the pieces of one face.
+/// The plane through the pieces of one face. Sums of many thousands are relative to a corner, and
+/// longer than doubles: their rounding must not be larger than that of corners.
 BspTree::Plane BspBuilder::plane_of(std::span<const Piece> pieces) const {
   if (pieces.size() == 1) {
     return plane_of(scene_.corners(pieces[0]));
   }
-  Vec3 sum, moment;
-  double weights = 0;
+  using Sum = std::array<long double, 3>;
+  const auto add = [](Sum& sum, double factor, const Vec3& v) {
+    sum[0] += factor * v.x;
+    sum[1] += factor * v.y;
+    sum[2] += factor * v.z;
+  };
+  const auto rounded = [](const Sum& sum, long double divisor) {
+    return Vec3{static_cast<double>(sum[0] / divisor), static_cast<double>(sum[1] / divisor),
+                static_cast<double>(sum[2] / divisor)};
+  };
+  const Vec3 start = scene_.point(scene_.corners(pieces[0])[0]);
+  Vec3 first;
+  Sum areas{}, moments{};
+  long double weights = 0;
   for (const Piece& piece : pieces) {
     const auto points = scene_.corners(piece);
     const Vec3& origin = scene_.point(points[0]);
@@ -285,15 +298,16 @@ BspTree::Plane BspBuilder::plane_of(std::span<const Piece> pieces) const {
       const Vec3& a = scene_.point(points[k]);
       const Vec3& b = scene_.point(points[(k + 1) % points.size()]);
       twice_area = twice_area + cross(a - origin, b - origin);
-      corners = corners + a;
+      corners = corners + (a - start);
     }
+    first = weights > 0 ? first : twice_area;
     const double weight = norm(twice_area);
-    sum = dot(sum, twice_area) >= 0 ? sum + twice_area : sum - twice_area;
-    moment = moment + weight / static_cast<double>(points.size()) * corners;
+    add(areas, dot(first, twice_area) >= 0 ? 1 : -1, twice_area);
+    add(moments, weight / static_cast<double>(points.size()), corners);
     weights += weight;
   }
-  const Vec3 normal = normalized(sum);
-  return {normal, dot(normal, moment / weights)};
+  const Vec3 normal = normalized(rounded(areas, weights));
+  return {normal, dot(normal, start + rounded(moments, weights))};
 }
 
 bool BspBuilder::contains(const BspTree::Plane& plane, std::span<const PointId> points,
