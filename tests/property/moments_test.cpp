@@ -3,15 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
-#include <utility>
 
 #include "support/imperfect_scenes.h"
 #include "support/random_scenes.h"
 #include "support/scenes.h"
+#include "support/transfer_difference.h"
 #include "transillum/at.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
@@ -20,6 +18,9 @@
 namespace transillum::moments_test {
 namespace {
 
+using testing::largest_difference;
+using testing::moments_of;
+using testing::PairMoments;
 using testing::Sketch;
 using testing::test_directions;
 
@@ -116,35 +117,6 @@ TEST(MomentClosure, HoldsWhereSurfacesInterpenetrate) {
   for (const Engine engine : {Engine::fast, Engine::local}) {
     expect_closure(sketch.scene(), engine, 100);
   }
-}
-
-using PairMoments = std::map<std::pair<PatchId, PatchId>, TransferMoments>;
-
-PairMoments moments_of(const Transfers& transfers) {
-  PairMoments moments;
-  for (std::size_t k = 0; k < transfers.exchanges.size(); ++k) {
-    const Transfer& t = transfers.exchanges[k];
-    moments[{t.receiver, t.source}] = transfers.moments[k];
-  }
-  return moments;
-}
-
-/// The largest difference of moments, over the area of the smaller patch. Missing pairs are 0.
-double largest_difference(const Scene& scene, const PairMoments& one, const PairMoments& other) {
-  double largest = 0;
-  const auto compare = [&](const PairMoments& a, const PairMoments& b) {
-    for (const auto& [pair, moments] : a) {
-      const auto found = b.find(pair);
-      const TransferMoments of_b = found != b.end() ? found->second : TransferMoments{};
-      const double area = std::min(scene.patch(pair.first).area, scene.patch(pair.second).area);
-      for (std::size_t k = 0; k < moments.value.size(); ++k) {
-        largest = std::max(largest, std::abs(moments.value[k] - of_b.value[k]) / area);
-      }
-    }
-  };
-  compare(one, other);
-  compare(other, one);
-  return largest;
 }
 
 /// Compares fast with local, and both with exact where that is quick.

@@ -77,4 +77,30 @@ TransferDifference difference_from_both_ends(const Scene& scene, const Transfers
   return difference(scene, there, reversed);
 }
 
+PairMoments moments_of(const Transfers& transfers) {
+  PairMoments moments;
+  for (std::size_t k = 0; k < transfers.exchanges.size(); ++k) {
+    const Transfer& t = transfers.exchanges[k];
+    moments[{t.receiver, t.source}] = transfers.moments[k];
+  }
+  return moments;
+}
+
+double largest_difference(const Scene& scene, const PairMoments& one, const PairMoments& other) {
+  double largest = 0;
+  const auto compare = [&](const PairMoments& a, const PairMoments& b) {
+    for (const auto& [pair, moments] : a) {
+      const auto found = b.find(pair);
+      const TransferMoments of_b = found != b.end() ? found->second : TransferMoments{};
+      const double area = std::min(scene.patch(pair.first).area, scene.patch(pair.second).area);
+      for (std::size_t k = 0; k < moments.value.size(); ++k) {
+        largest = std::max(largest, std::abs(moments.value[k] - of_b.value[k]) / area);
+      }
+    }
+  };
+  compare(one, other);
+  compare(other, one);
+  return largest;
+}
+
 }  // namespace transillum::testing

@@ -1,7 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <map>
 #include <string>
+#include <utility>
 
 #include "transillum/scene.h"
 #include "transillum/transfers.h"
@@ -21,5 +23,11 @@ TransferDifference difference(const Scene& scene, const Transfers& a, const Tran
 /// Compares the transfers of omega with the transfers of -omega: receiver and source are exchanged.
 TransferDifference difference_from_both_ends(const Scene& scene, const Transfers& there,
                                              const Transfers& back);
+
+/// Moments by receiver and source.
+using PairMoments = std::map<std::pair<PatchId, PatchId>, TransferMoments>;
+PairMoments moments_of(const Transfers& transfers);
+/// The largest difference of moments, over the area of the smaller patch. Missing pairs are 0.
+double largest_difference(const Scene& scene, const PairMoments& one, const PairMoments& other);
 
 }  // namespace transillum::testing

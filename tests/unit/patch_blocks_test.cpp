@@ -6,9 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <map>
-#include <utility>
 #include <vector>
 
 #include "support/scenes.h"
@@ -234,32 +231,6 @@ TEST(PatchBlocks, AgreeWithTheLocalMap) {
   }
 }
 
-using PairMoments = std::map<std::pair<PatchId, PatchId>, TransferMoments>;
-
-PairMoments moments_of(const Transfers& transfers) {
-  PairMoments moments;
-  for (std::size_t k = 0; k < transfers.exchanges.size(); ++k) {
-    moments[{transfers.exchanges[k].receiver, transfers.exchanges[k].source}] =
-        transfers.moments[k];
-  }
-  return moments;
-}
-
-/// The largest difference between a moment in `a` and the same moment in `b`, over the area of the
-/// smaller patch. Pairs that `b` lacks have moments of 0.
-double difference(const Scene& scene, const PairMoments& a, const PairMoments& b) {
-  double largest = 0;
-  for (const auto& [pair, moments] : a) {
-    const auto found = b.find(pair);
-    const TransferMoments other = found != b.end() ? found->second : TransferMoments{};
-    const double area = std::min(scene.patch(pair.first).area, scene.patch(pair.second).area);
-    for (std::size_t k = 0; k < moments.value.size(); ++k) {
-      largest = std::max(largest, std::abs(moments.value[k] - other.value[k]) / area);
-    }
-  }
-  return largest;
-}
-
 TEST(PatchBlocks, HaveTheMomentsOfTheLocalMap) {
   for (const Case& of : cases()) {
     const auto scene = of.sketch().scene(of.options);
@@ -267,10 +238,9 @@ TEST(PatchBlocks, HaveTheMomentsOfTheLocalMap) {
     const TransferEngine fast = make_engine(Engine::fast, scene, tree, {.moments = true});
     const TransferEngine local = make_engine(Engine::local, scene, tree, {.moments = true});
     for (const Vec3& omega : directions()) {
-      const PairMoments by_fast = moments_of(fast(omega, {}));
-      const PairMoments by_local = moments_of(local(omega, {}));
-      EXPECT_LE(difference(*scene, by_fast, by_local), agreed) << of.name;
-      EXPECT_LE(difference(*scene, by_local, by_fast), agreed) << of.name;
+      const auto by_fast = testing::moments_of(fast(omega, {}));
+      const auto by_local = testing::moments_of(local(omega, {}));
+      EXPECT_LE(testing::largest_difference(*scene, by_fast, by_local), agreed) << of.name;
     }
   }
 }
