@@ -130,7 +130,7 @@ int systems_of(const SolveOptions& options) {
 double seconds_of_iterations(const SolverSnapshot& done) {
   const SolveStatistics& s = done.statistics;
   const auto made = static_cast<double>(s.iteration_records.size());
-  if (made < 2 || repeats_passes(done)) {  // the time of the first has that of passes
+  if (made < 2 || repeats_passes(done)) {  // the first iteration's time includes its passes
     return s.seconds_iterate;
   }
   return s.seconds_iterate + (iterations_of(done) - made) * s.iteration_records.back().seconds;

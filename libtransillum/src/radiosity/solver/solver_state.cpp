@@ -94,7 +94,7 @@ bool RadiositySolver::Impl::advance_passes(int last, const RadiositySolver& self
   loop.prepare = [&](int k, Pass& pass) { prepare_pass(k, known, pass); };
   loop.add = [&](int k, Pass pass) {
     add_pass(k, std::move(pass));
-    add_times();  // an observer is told the time of the passes that it is told of
+    add_times();  // before an observer reads the number of passes
   };
   loop.settle = [&] { settle(); };
   loop.observe = [&](int) { return !observer || observer(self); };

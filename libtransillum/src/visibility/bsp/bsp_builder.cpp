@@ -179,10 +179,11 @@ void BspBuilder::join(Subtree& subtree_part) {
   tree_.depth_ = std::max(tree_.depth_, subtree_part.depth);
 }
 
-/// The plane of each patch of a divided face is that of the face. Through its own corners, whose
-/// rounding is large for its size, it would miss the far end of the face, or of a face that touches
-/// this one, by more than their thickness. Patches that are bent by more than the rounding of their
-/// corners keep their own: by a common plane, strips of the bend's width would be lost.
+/// All patches of a divided face have the plane of the face. The corners of one small patch are
+/// rounded by much for its size: a plane through them would miss the far end of the face, or a face
+/// that touches it, by more than the thickness of planes. Patches that are bent by more than the
+/// rounding of their corners keep their own planes: by a common plane, strips of the bend's width
+/// could be lost.
 void BspBuilder::add_pieces() {
   tree_.points_ = scene_.points();
   const std::vector<Piece>& pieces = scene_.pieces();
@@ -270,8 +271,8 @@ BspTree::Plane BspBuilder::plane_of(std::span<const PointId> points) const {
   return {normal, dot(normal, origin + sum / static_cast<double>(points.size()))};
 }
 
-/// The plane through the pieces of one face. Sums of many thousands are relative to a corner, and
-/// longer than doubles: their rounding must not be larger than that of corners.
+/// The plane through the pieces of one face. Sums over many thousands of pieces are relative to a
+/// corner, in long double, so that they are as exact as the coordinates of a corner.
 BspTree::Plane BspBuilder::plane_of(std::span<const Piece> pieces) const {
   if (pieces.size() == 1) {
     return plane_of(scene_.corners(pieces[0]));
