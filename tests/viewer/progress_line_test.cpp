@@ -163,6 +163,28 @@ class ProgressLineTest : public QObject {
     }
   }
 
+  // The first iteration is shown as soon as the scene has been read.
+  void a_bar_that_has_an_end_does_not_move() {
+    const auto snapshot = test::solved_snapshot("cornell-box", 32);
+    snapshot->progress.finished = false;
+    snapshot->progress.iteration = 1;
+    snapshot->progress.direction = snapshot->progress.passes;
+    snapshot->statistics.kept_form_factors = false;
+    ProgressLine line;
+    line.resize(1000, line.sizeHint().height());
+    line.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&line));
+    line.show_state(RunState::loading);
+    line.show_loading("Reading", -1);
+    QVERIFY(test::wait_for([&] { return test::changes_later(line); }));
+    line.show_state(RunState::running);
+    line.show_snapshot(snapshot);
+    const auto& bar = *line.findChild<QProgressBar*>("progress");
+    QVERIFY(bar.isVisible() && bar.maximum() > 0 && bar.value() <= 0);
+    line.grab();  // as it would be drawn
+    QVERIFY(!test::changes_later(line));
+  }
+
   void a_surface_in_the_dark_is_said_to_be_so() {
     const auto snapshot = reached("cellar");
     snapshot->accuracy->is_dark = true;

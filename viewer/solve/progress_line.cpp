@@ -4,6 +4,7 @@
 // thread by queued signals; this only formats them.
 #include "solve/progress_line.h"
 
+#include <QAbstractAnimation>
 #include <QFileInfo>
 #include <QLabel>
 #include <QProgressBar>
@@ -234,7 +235,7 @@ void ProgressLine::show_loading(const QString& phase, double fraction) {
   phase_->setText(phase + QStringLiteral("…"));
   bar_->setVisible(true);
   bar_->setToolTip({});
-  bar_->setRange(0, fraction < 0 ? 0 : 1000);
+  set_steps(fraction < 0 ? 0 : 1000);
   bar_->setValue(static_cast<int>(1000 * fraction));
   rate_->clear();
   time_->clear();
@@ -248,7 +249,7 @@ void ProgressLine::show_state(RunState state) {
   // A bar without an end would move on, whatever has become of the work.
   const bool is_busy = bar_->maximum() == 0;
   if (state == RunState::empty || (is_busy && state != RunState::loading)) {
-    bar_->setRange(0, 1);
+    set_steps(1);
     bar_->reset();
     bar_->setVisible(false);
   }
@@ -292,16 +293,28 @@ void ProgressLine::show_solve() {
   time_->setToolTip(tr("Time left in this iteration"));
 }
 
+/// @param steps 0: the bar moves by itself
+void ProgressLine::set_steps(int steps) {
+  bar_->setRange(0, steps);
+  if (steps == 0) {
+    return;
+  }
+  // The style would stop it only when it draws a step that is done.
+  for (QAbstractAnimation* animation : bar_->findChildren<QAbstractAnimation*>()) {
+    animation->stop();
+  }
+}
+
 /// The bar is empty between iterations that make passes.
 void ProgressLine::show_bar(const SolveProgress& progress, bool within) {
   constexpr int steps = 1000;
   if (!within && iterates_without_passes(*snapshot_)) {
-    bar_->setRange(0, steps);
+    set_steps(steps);
     bar_->setValue(static_cast<int>(steps * fraction_of_iterations(*snapshot_)));
     bar_->setToolTip(tr("Iterations done, by the light that is still to be reflected"));
     return;
   }
-  bar_->setRange(0, std::max(progress.passes, 1));
+  set_steps(std::max(progress.passes, 1));
   bar_->setToolTip(tr("Directions of this iteration"));
   if (within) {
     bar_->setValue(progress.direction);
@@ -313,7 +326,7 @@ void ProgressLine::show_bar(const SolveProgress& progress, bool within) {
 /// With lobes, passes are the smaller part of an iteration.
 void ProgressLine::show_stage_of_lobes(const SolveProgress& progress) {
   bar_->setToolTip({});
-  bar_->setRange(0, 1000);
+  set_steps(1000);
   bar_->setValue(static_cast<int>(1000 * progress.stage_fraction));
   phase_->setText(progress.stage == SolveProgress::Stage::scaling_lobes
                       ? tr("Scaling lobes")

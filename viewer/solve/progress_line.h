@@ -25,6 +25,7 @@ class ProgressLine : public QWidget {
 
  private:
   void show_solve();
+  void set_steps(int steps);
   void show_bar(const SolveProgress& progress, bool within);
   void show_stage_of_lobes(const SolveProgress& progress);
 
