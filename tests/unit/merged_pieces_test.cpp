@@ -56,6 +56,26 @@ TEST(MergedPieces, OfConcaveFacesAreTheirPiecesAndOfNonplanarOnesTheirTriangles)
   }
 }
 
+/// A corner of the second triangle is beyond the first: folded by more than a right angle, they face
+/// away from each other.
+TEST(MergedPieces, OfAFoldedFaceAreBothItsTriangles) {
+  Sketch sketch;
+  sketch.face({{-.2, 0, 0}, {0, -1, 2}, {.2, 0, 0}, {0, 1, 2}}, sketch.material(0.5, 0));
+  ASSERT_LT(dot(sketch.scene()->patch(0).normal, sketch.scene()->patch(1).normal), 0);
+  for (const bool two_sided : {false, true}) {
+    for (const double area_bound : {0.0, 0.1}) {
+      const auto scene = sketch.scene({.two_sided = two_sided, .max_patch_area = area_bound});
+      double expected = 0;
+      for (const Patch& patch : scene->patches()) {
+        expected += patch.area / (two_sided ? 2 : 1);
+      }
+      const auto triangles = merged_pieces(*scene);
+      EXPECT_EQ(triangles.size(), 2U);
+      EXPECT_NEAR(area(triangles), expected, 1e-12);
+    }
+  }
+}
+
 TEST(MergedPieces, OfCoincidentFacesAreOne) {
   Sketch sketch;
   const std::vector<Vec3> corners{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}};

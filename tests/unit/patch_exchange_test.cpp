@@ -158,6 +158,34 @@ TEST(PatchExchange, FindsAStripThatDoesNotSee) {
                         {{-99, .1, -1}, {99, .1, -1}, {99, .1, 0}, {-99, .1, 0}});
 }
 
+/// Past four boards, sums over points of the first patch and over a quarter of them agree by chance
+/// to 0.2 %, and both miss an eighth.
+TEST(PatchExchange, DoesNotTrustSumsThatAgreeByChance) {
+  Sketch sketch;
+  const int gray = sketch.material(0.5, 0);
+  const std::vector<std::vector<Vec3>> boards{
+      {{.042, -.011, -.01}, {.017, .038, -.015}, {-.042, .011, .01}, {-.017, -.038, .015}},
+      {{-.669, .39, 1.644}, {1.115, -.111, 2.128}, {.7, -1.367, 2.356}, {-1.084, -.866, 1.872}},
+      {{-.517, .579, .399}, {-.451, .269, .468}, {.504, .386, .071}, {.437, .696, .002}},
+      {{.133, -.216, -.023}, {-.456, .532, .131}, {-.364, .45, .878}, {.225, -.298, .724}},
+      {{.201, -.037, .437}, {.239, .384, .347}, {.26, .445, .643}, {.222, .025, .733}},
+      {{.249, .35, 1.08}, {-.14, .746, 1.021}, {-.625, .39, 1.823}, {-.236, -.007, 1.882}}};
+  for (const std::vector<Vec3>& board : boards) {
+    sketch.face(board, gray);
+  }
+  const auto scene = sketch.scene();
+  // By ten million rays; their standard error is 2e-5.
+  constexpr double exact = 0.041431;
+  const double area = scene->patch(0).area;
+  for (const double density : {16.0, 32.0}) {
+    const ExchangeFinder exchange(*scene, {}, density);
+    EXPECT_NEAR(exchange.area_between(0, 1, {}) / area, exact, 0.01 * exact) << density;
+    const PatchExchange estimated = exchange(0, 1);
+    EXPECT_LE(std::abs(estimated.area / area - exact), 3 * std::abs(estimated.error) / area)
+        << density;
+  }
+}
+
 /// A lamp in the plane of its ceiling, with the same normal, covers it.
 TEST(PatchExchange, TheBrighterOfCoincidentPatchesIsVisible) {
   Sketch sketch;

@@ -181,7 +181,7 @@ class ProgressLineTest : public QObject {
     line.show_snapshot(snapshot);
     const auto& bar = *line.findChild<QProgressBar*>("progress");
     QVERIFY(bar.isVisible() && bar.maximum() > 0 && bar.value() <= 0);
-    line.grab();  // as it would be drawn
+    line.grab();  // the style draws it
     QVERIFY(!test::changes_later(line));
   }
 

@@ -20,7 +20,7 @@
 #include "radiosity/ratio.h"
 #include "radiosity/reflected_light.h"
 #include "radiosity/sun_light.h"
-#include "radiosity/two_sided.h"
+#include "scene/build/two_sided.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/study.h"

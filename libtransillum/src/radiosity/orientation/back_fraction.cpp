@@ -11,7 +11,7 @@
 
 #include "base/for_each_index.h"
 #include "radiosity/orientation/surface_rays.h"
-#include "radiosity/two_sided.h"
+#include "scene/build/two_sided.h"
 #include "transillum/orientation.h"
 
 namespace transillum {

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "radiosity/ratio.h"
-#include "radiosity/two_sided.h"
+#include "scene/build/two_sided.h"
 #include "transillum/at.h"
 
 namespace transillum {

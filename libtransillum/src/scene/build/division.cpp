@@ -18,6 +18,7 @@
 #include "scene/build/patch_builder.h"
 #include "scene/build/patch_count.h"
 #include "scene/build/refinement.h"
+#include "scene/build/two_sided.h"
 #include "transillum/errors.h"
 
 namespace transillum {
@@ -139,7 +140,7 @@ class PatchDivision {
       if (i % patches_between_checks == 0) {
         cancellation_.throw_if_canceled();
       }
-      const bool two = are_sides(i);
+      const bool two = are_two_sides(whole_, i);
       const std::vector<Outline> cells = cells_of(i);
       if (cells.empty()) {
         copy(i);
@@ -280,16 +281,6 @@ class PatchDivision {
   }
 
   static constexpr PatchId patches_between_checks = 256;
-
-  bool are_sides(PatchId i) const {
-    if (i + 1 >= whole_.patch_count()) {
-      return false;
-    }
-    const Patch &front = whole_.patch(i), &back = whole_.patch(i + 1);
-    const auto a = whole_.outline(i), b = whole_.outline(i + 1);
-    return front.face == back.face && front.normal == -back.normal && a.size() == b.size() &&
-           std::equal(a.begin(), a.end(), b.rbegin());
-  }
 
   /// Which patches are divided: those asked for, and all on the same points as one of them.
   std::vector<bool> with_coincident(std::span<const PatchId> patches) const {

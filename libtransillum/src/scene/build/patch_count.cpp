@@ -15,6 +15,7 @@
 #include "base/memory_limit.h"
 #include "scene/build/patch_builder.h"
 #include "scene/build/refinement.h"
+#include "scene/build/two_sided.h"
 #include "transillum/errors.h"
 
 namespace transillum {
@@ -208,10 +209,12 @@ double max_patch_area_for(const Scene& unrefined, std::int64_t patches,
 }
 
 bool has_two_sided_faces(const Scene& scene) {
-  const auto& patches = scene.patches();
-  return std::adjacent_find(patches.begin(), patches.end(), [](const Patch& a, const Patch& b) {
-           return a.face == b.face && a.center == b.center;
-         }) != patches.end();
+  for (PatchId i = 0; i + 1 < scene.patch_count(); ++i) {
+    if (are_two_sides(scene, i)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace transillum

@@ -142,6 +142,20 @@ class ExchangeFinder::PointQuadrature {
     return sums;
   }
 
+  /// The error of what a cell exchanges, as far as fewer points tell. Two sums may agree by chance:
+  /// a third, of about a sixteenth of the points or of the corners, is asked, too.
+  /// @param sums,half by `divisions`, and by half of it
+  /// @param exact without blockers
+  double error(Outline cell, int divisions, const PointSums& sums, const PointSums& half,
+               double exact) {
+    const double fewer = seen_part(half, exact);
+    const PointSums least = divisions > 1 ? (*this)(cell, divisions / 4) : near_corners(cell);
+    // About a quarter of the points have four times the error.
+    const double first = (seen_part(sums, exact) - fewer) / 3;
+    const double second = (fewer - seen_part(least, exact)) / 12;
+    return std::abs(second) > std::abs(first) ? second : first;
+  }
+
   /// By how much a cell may exchange more than its points say, or less if negative, where these may
   /// have missed a strip: what corners see may reach to the next points.
   /// @param exact without blockers
@@ -212,11 +226,10 @@ void ExchangeFinder::add_partial(const FacingPolygons& facing, const Numbers& bl
       exchange.error += strip;
       return;
     }
-    // Half the distance between points leaves a quarter of the error, and takes three quarters
-    // away.
     const PointSums half = divisions == 0 ? PointSums() : by_points(cell, divisions / 2);
     const double error =
-        divisions == 0 ? cell_size * cell_size * sums.seen : (sums.seen - half.seen) / 3;
+        divisions == 0 ? cell_size * cell_size * sums.seen
+                       : by_points.error(cell, divisions, sums, half, exact);
     exchange.error += std::abs(strip) > std::abs(error) ? strip : error;
     if (query.receiver != nullptr) {
       if (divisions < moment_divisions_) {
@@ -237,8 +250,8 @@ double ExchangeFinder::seen_by_enough(PointQuadrature& by_points, RefinedCells& 
                                       const Corners& cell, int divisions, const PointSums& sums,
                                       double exact, double smaller) const {
   // Estimated errors, with the usual density of 32: 0.2 % of what is seen, or a form factor of
-  // 1e-5.
-  constexpr double tolerated_part = 2, tolerated_factor = 1e-2;
+  // 2e-6.
+  constexpr double tolerated_part = 2, tolerated_factor = 2e-3;
   const double scale = 1 / (density_ * density_), least = scale * tolerated_factor * smaller;
   const auto tolerated = [&](double seen) {
     return std::max(scale * tolerated_part * seen, least);
@@ -251,10 +264,9 @@ double ExchangeFinder::seen_by_enough(PointQuadrature& by_points, RefinedCells& 
       may_miss_strip(sums) &&
       std::abs(by_points.missed_strip(cell, divisions, sums, exact)) > 3 * tolerated(seen);
   if (!strip_matters && (divisions > 0 || sums.seen == 0)) {
-    // About a quarter of the points have four times the error.
-    const double fewer = seen_part(by_points(cell, divisions / 2), exact);
     const double missed = sums.free > 0 ? std::abs(exact / sums.free - 1) * seen : 0;
-    if (std::abs(seen - fewer) / 3 + missed <= tolerated(seen)) {
+    const PointSums half = by_points(cell, divisions / 2);
+    if (std::abs(by_points.error(cell, divisions, sums, half, exact)) + missed <= tolerated(seen)) {
       return seen;
     }
   }

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "scene/build/cover_rank.h"
+#include "scene/build/two_sided.h"
 #include "transillum/at.h"
 
 namespace transillum {
@@ -105,14 +106,11 @@ double bend_of(const Scene& scene, const std::vector<PatchId>& patches, const Ha
   return bend;
 }
 
-/// Whether a patch is on the same side of its face as the first patch of that.
+/// Whether a patch is not the back of a two-sided face.
 std::vector<bool> on_first_side(const Scene& scene) {
-  std::vector<bool> first_side;
-  for (PatchId begin = 0, i = 0; i < scene.patch_count(); ++i) {
-    if (scene.patch(i).face != scene.patch(begin).face) {
-      begin = i;
-    }
-    first_side.push_back(dot(scene.patch(i).normal, scene.patch(begin).normal) > 0);
+  std::vector<bool> first_side(static_cast<std::size_t>(scene.patch_count()), true);
+  for (PatchId i = 1; i < scene.patch_count(); ++i) {
+    at(first_side, i) = !(at(first_side, i - 1) && are_two_sides(scene, i - 1));
   }
   return first_side;
 }
