@@ -56,8 +56,8 @@ TEST(MergedPieces, OfConcaveFacesAreTheirPiecesAndOfNonplanarOnesTheirTriangles)
   }
 }
 
-/// A corner of the second triangle is beyond the first: folded by more than a right angle, they face
-/// away from each other.
+/// A corner of the second triangle is beyond the first: folded by more than a right angle, they
+/// face away from each other.
 TEST(MergedPieces, OfAFoldedFaceAreBothItsTriangles) {
   Sketch sketch;
   sketch.face({{-.2, 0, 0}, {0, -1, 2}, {.2, 0, 0}, {0, 1, 2}}, sketch.material(0.5, 0));

@@ -142,6 +142,8 @@ class ProgressLineTest : public QObject {
           break;
         }
         line.show_snapshot(std::make_shared<SolverSnapshot>(snapshot_of(session, loaded)));
+        const QString phase = line.findChild<QLabel*>("phase")->text();
+        QVERIFY2(phase.endsWith("done"), qPrintable(phase));
         const double fraction = 1.0 * bar.value() / bar.maximum();
         QVERIFY2(fraction > before && fraction < 1, qPrintable(bar.text()));
         before = fraction;
@@ -163,7 +165,7 @@ class ProgressLineTest : public QObject {
     }
   }
 
-  // The first iteration is shown as soon as the scene has been read.
+  // Where an iteration has ended, nothing of the bar is filled.
   void a_bar_that_has_an_end_does_not_move() {
     const auto snapshot = test::solved_snapshot("cornell-box", 32);
     snapshot->progress.finished = false;

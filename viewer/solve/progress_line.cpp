@@ -159,7 +159,7 @@ QString unfinished_text(const SolverSnapshot& snapshot, bool running) {
           ? ProgressLine::tr("Iteration %1, direction %2 of %3")
                 .arg(count_text(progress.iteration + 1), count_text(progress.direction),
                      count_text(progress.passes))
-      : running
+      : running && !iterates_without_passes(snapshot)
           ? ProgressLine::tr("%1 done, the next begins").arg(iterations_text(progress.iteration))
           : ProgressLine::tr("%1 done").arg(iterations_text(progress.iteration));
   return !running            ? ProgressLine::tr("Paused: %1").arg(round + at)
@@ -300,9 +300,7 @@ void ProgressLine::set_steps(int steps) {
     return;
   }
   // The style would stop it only when it draws a step that is done.
-  for (QAbstractAnimation* animation : bar_->findChildren<QAbstractAnimation*>()) {
-    animation->stop();
-  }
+  qDeleteAll(bar_->findChildren<QAbstractAnimation*>());
 }
 
 /// The bar is empty between iterations that make passes.

@@ -98,9 +98,10 @@ EdgeSum exchange_by_edges(Outline p, Outline q) {
   return sum;
 }
 
-/// exchange_of_small() for any p, in triangles divided until the integral does not change.
+/// exchange_of_small() for any p, in triangles divided until the integral does not change, or only
+/// by what is nothing beside rounding.
 double exchange_of_divided(Outline p, const Vec3& normal, Outline q, int most_divisions) {
-  constexpr double converged = 1e-10;
+  constexpr double converged = 1e-10, nothing = 1e-15;
   double sum = 0;
   for (std::size_t k = 1; k + 1 < p.size(); ++k) {
     const Vec3 &a = p[0], &b = p[k], &c = p[k + 1];
@@ -112,7 +113,9 @@ double exchange_of_divided(Outline p, const Vec3& normal, Outline q, int most_di
       divided += exchange_of_small(part, normal, q);
     }
     const double whole = exchange_of_small(std::array{a, b, c}, normal, q);
-    if (most_divisions > 1 && std::abs(divided - whole) > converged * std::abs(divided)) {
+    const double tolerated =
+        std::max(converged * std::abs(divided), nothing * norm(0.5 * cross(b - a, c - a)));
+    if (most_divisions > 1 && std::abs(divided - whole) > tolerated) {
       divided = 0;
       for (const auto& part : parts) {
         divided += exchange_of_divided(part, normal, q, most_divisions - 1);

@@ -67,14 +67,20 @@ void add_moments_of(const RefinedCells::Exchange& found, PatchExchange& exchange
   }
 }
 
+/// The part of what points would see without blockers.
+double part_seen(const PointSums& sums) { return sums.free > 0 ? sums.seen / sums.free : 0; }
+
 /// The exchange of a cell past blockers, m²; at most `exact`, its exchange without them. Blockers
 /// may hide next to nothing, as the other half of a bent quad does. The sum over points is then off
 /// by the error of the quadrature without blockers, and `exact` replaces it.
 double seen_part(const PointSums& sums, double exact) {
   constexpr double nearly_all = 0.999;
-  const double part = sums.free > 0 ? sums.seen / sums.free : 0;
+  const double part = part_seen(sums);
   return part > nearly_all ? std::min(part, 1.0) * exact : std::min(sums.seen, exact);
 }
+
+/// The error of the larger absolute value.
+double larger(double a, double b) { return std::abs(b) > std::abs(a) ? b : a; }
 
 /// Whether points see so little, or nearly everything, that they may have missed a strip along an
 /// edge of their cell, from which alone the other polygon is seen, or hidden.
@@ -142,18 +148,15 @@ class ExchangeFinder::PointQuadrature {
     return sums;
   }
 
-  /// The error of what a cell exchanges, as far as fewer points tell. Two sums may agree by chance:
-  /// a third, of about a sixteenth of the points or of the corners, is asked, too.
-  /// @param sums,half by `divisions`, and by half of it
+  /// The error of what a cell exchanges by the next larger sum, as two sums may agree by chance:
+  /// from the part that is seen by half of the divisions and by a quarter of them, or by the
+  /// corners where there is one division.
+  /// @param half by half of the divisions
   /// @param exact without blockers
-  double error(Outline cell, int divisions, const PointSums& sums, const PointSums& half,
-               double exact) {
-    const double fewer = seen_part(half, exact);
+  double error_of_fewer(Outline cell, int divisions, const PointSums& half, double exact) {
     const PointSums least = divisions > 1 ? (*this)(cell, divisions / 4) : near_corners(cell);
-    // About a quarter of the points have four times the error.
-    const double first = (seen_part(sums, exact) - fewer) / 3;
-    const double second = (fewer - seen_part(least, exact)) / 12;
-    return std::abs(second) > std::abs(first) ? second : first;
+    // Each halving of the distance between points leaves a quarter of the error.
+    return exact * (part_seen(half) - part_seen(least)) / 12;
   }
 
   /// By how much a cell may exchange more than its points say, or less if negative, where these may
@@ -161,8 +164,7 @@ class ExchangeFinder::PointQuadrature {
   /// @param exact without blockers
   double missed_strip(Outline cell, int divisions, const PointSums& sums, double exact) {
     const PointSums near = near_corners(cell);
-    const auto part_of = [](const PointSums& s) { return s.free > 0 ? s.seen / s.free : 0; };
-    return exact * (part_of(near) - part_of(sums)) / (3 * std::max(divisions, 1));
+    return exact * (part_seen(near) - part_seen(sums)) / (3 * std::max(divisions, 1));
   }
 
  private:
@@ -226,11 +228,15 @@ void ExchangeFinder::add_partial(const FacingPolygons& facing, const Numbers& bl
       exchange.error += strip;
       return;
     }
-    const PointSums half = divisions == 0 ? PointSums() : by_points(cell, divisions / 2);
-    const double error =
-        divisions == 0 ? cell_size * cell_size * sums.seen
-                       : by_points.error(cell, divisions, sums, half, exact);
-    exchange.error += std::abs(strip) > std::abs(error) ? strip : error;
+    PointSums half;
+    double error = cell_size * cell_size * sums.seen;
+    if (divisions > 0) {
+      half = by_points(cell, divisions / 2);
+      // Half the distance between points takes three quarters of the error away.
+      error = larger((sums.seen - half.seen) / 3,
+                     by_points.error_of_fewer(cell, divisions, half, exact));
+    }
+    exchange.error += larger(error, strip);
     if (query.receiver != nullptr) {
       if (divisions < moment_divisions_) {
         add_moments_of(area, by_points(cell, moment_divisions_),
@@ -263,10 +269,15 @@ double ExchangeFinder::seen_by_enough(PointQuadrature& by_points, RefinedCells& 
   const bool strip_matters =
       may_miss_strip(sums) &&
       std::abs(by_points.missed_strip(cell, divisions, sums, exact)) > 3 * tolerated(seen);
-  if (!strip_matters && (divisions > 0 || sums.seen == 0)) {
-    const double missed = sums.free > 0 ? std::abs(exact / sums.free - 1) * seen : 0;
+  if (!strip_matters && divisions == 0 && sums.seen == 0) {
+    return seen;
+  }
+  if (!strip_matters && divisions > 0) {
     const PointSums half = by_points(cell, divisions / 2);
-    if (std::abs(by_points.error(cell, divisions, sums, half, exact)) + missed <= tolerated(seen)) {
+    const double error = larger((seen - seen_part(half, exact)) / 3,
+                                by_points.error_of_fewer(cell, divisions, half, exact));
+    const double missed = sums.free > 0 ? std::abs(exact / sums.free - 1) * seen : 0;
+    if (std::abs(error) + missed <= tolerated(seen)) {
       return seen;
     }
   }

@@ -50,8 +50,8 @@ struct SampledPolygon;
 /// Otherwise one of the two is sampled by points (SampledPolygon), and the form factor from each
 /// point to the visible part of the other is computed exactly: the error decreases about as the
 /// square of the distance between points, or in proportion to it if a blocker touches the sampled
-/// patch. It is estimated, for the former, from what a quarter of the points give; where one point
-/// suffices, as the square of the patch's size over the distance.
+/// patch. It is estimated, for the former, from what a quarter and a sixteenth of the points give;
+/// where one point suffices, as the square of the patch's size over the distance.
 ///
 /// Among coplanar patches with the same normal, those cover others that do so in BspTree::order().
 /// Surfaces closer to each other than 1e-12 of the scene's size are treated as touching, and then
