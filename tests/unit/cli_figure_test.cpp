@@ -6,6 +6,7 @@
 #include <png.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "support/pdf_content.h"
 #include "support/program_call.h"
@@ -135,6 +136,18 @@ TEST(CliFigure, MapsHaveATitleIfAsked) {
   const std::string words(500, 'n');
   expect_success(call + Arguments{"--title", words, "-o", folder / "long.svg"});
   EXPECT_THAT(read_file(folder / "long.svg"), HasSubstr("n\u2026</text>"));
+}
+
+/// The end of a long name of a scene, in letters of two bytes.
+TEST(CliFigure, NamesAreShortenedByTheirCharacters) {
+  const TemporaryFolder folder;
+  for (const char* name : {"room-with-lamp", "комната-лампой"}) {
+    const auto scene = folder / (std::string(name) + ".obj");
+    std::ofstream(scene) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    expect_success({"map", scene, "--direction", "0,0,1", "--size", "300", "-o", folder / "m.svg"});
+    const std::string end = std::string(name).substr(name[0] == 'r' ? 4 : 8) + ".obj</text>";
+    EXPECT_THAT(read_file(folder / "m.svg"), HasSubstr(end)) << name;
+  }
 }
 
 TEST(CliFigure, TransparentMapsHaveNoBackground) {

@@ -19,18 +19,20 @@ constexpr double least_map_height = 64;
 /// Upper bound of the mean width of the title's bold letters, pixels.
 constexpr double title_letter = 13;
 
-/// A name of at most `max_size` bytes: the end of a longer one, after an ellipsis. The end is the
+/// Whether a byte of UTF-8 is the first of a character.
+bool begins_character(char byte) { return (byte & 0xc0) != 0x80; }
+
+/// A name of at most `most` characters: the end of a longer one, after an ellipsis. The end is the
 /// distinctive part of a path.
-std::string shortened(const std::string& text, std::size_t max_size) {
-  std::string clean = clean_text(text);
-  if (clean.size() <= max_size) {
-    return clean;
+std::string shortened(const std::string& text, std::size_t most) {
+  const std::string clean = clean_text(text);
+  std::size_t characters = 0;
+  for (std::size_t k = clean.size(); k-- > 0;) {
+    if (begins_character(clean[k]) && ++characters == most && k > 0) {
+      return "\u2026" + clean.substr(k);
+    }
   }
-  std::size_t begin = clean.size() - max_size;
-  while (begin < clean.size() && (clean[begin] & 0xc0) == 0x80) {
-    ++begin;  // inside a character
-  }
-  return "\u2026" + clean.substr(begin);
+  return clean;
 }
 
 /// A title of at most `most` characters: the begin of a longer one, before an ellipsis.
@@ -38,8 +40,7 @@ std::string cut(const std::string& text, std::size_t most) {
   const std::string clean = clean_text(text);
   std::size_t characters = 0;
   for (std::size_t k = 0; k < clean.size(); ++k) {
-    const bool begins = (clean[k] & 0xc0) != 0x80;
-    if (begins && ++characters > most) {
+    if (begins_character(clean[k]) && ++characters > most) {
       return clean.substr(0, k) + "\u2026";
     }
   }
