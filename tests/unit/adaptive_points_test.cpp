@@ -13,7 +13,7 @@ namespace {
 /// Three points and three corners often say the same part of it, a third or two thirds.
 TEST(AdaptivePoints, FindTheEdgeOfAShadowWherePointsAndCornersAgreeByChance) {
   const std::array<Vec3, 3> whole{{{0, 0, 0}, {1, 0, 0}, {0.2, 1, 0}}};
-  constexpr double tolerated = 0.001;  // 0.2 % of the area
+  constexpr double tolerated = 0.001;  // of an area of 0.5
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform(0, 1);
   int divided = 0;

@@ -15,7 +15,7 @@ namespace transillum {
 struct PointSums {
   double seen = 0, free = 0;
   std::array<double, 2> moments{};  ///< `seen` with phi_1 and phi_2 of a receiver as factors, m²
-  /// The smallest and the largest part that a single point sees of what it would see.
+  /// Of what single points would see, the smallest and the largest part that they do see.
   double least_part = 1, most_part = 0;
 
   /// Adds a point.
