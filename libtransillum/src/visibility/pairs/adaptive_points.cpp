@@ -62,13 +62,8 @@ void AdaptivePoints::add(const std::array<Vec3, 3>& triangle, int bisections) {
     }
     return;
   }
-  // Where the edge of a shadow divides a triangle, points and corners may agree by chance: either a
-  // third of them, say.
-  constexpr double spread_per_doubt = 4;
   const Seen seen = see_(triangle);
-  const double doubt =
-      std::max(std::abs(seen.by_points - seen.by_corners), seen.spread / spread_per_doubt);
-  triangles_.push_back({triangle, seen.by_points, doubt});
+  triangles_.push_back({triangle, seen.by_points, std::abs(seen.by_points - seen.by_corners)});
 }
 
 /// Replaces a triangle by its halves. Their doubt is at least the change that dividing it has made.

@@ -15,10 +15,9 @@ namespace transillum {
 /// changes most: at the edge of a shadow, or in a strip along an edge.
 class AdaptivePoints {
  public:
-  /// The exchange of a triangle, m²: by its points, if its corners decided, and the largest
-  /// difference if a single one of these decided.
+  /// The exchange of a triangle by its points, and what it would be if its corners decided, m².
   struct Seen {
-    double by_points, by_corners, spread;
+    double by_points, by_corners;
   };
   using See = std::function<Seen(Outline triangle)>;
   /// The error that is tolerated where `seen` is seen, m².
@@ -36,7 +35,7 @@ class AdaptivePoints {
   struct Triangle {
     std::array<Vec3, 3> corners;
     double seen;   ///< by points
-    double doubt;  ///< by how much it may be wrong, as far as points and larger triangles tell
+    double doubt;  ///< by how much it may be wrong, as far as corners and larger triangles tell
   };
   void add(const std::array<Vec3, 3>& triangle, int bisections);
   void divide(std::size_t number);

@@ -128,7 +128,8 @@ class ExchangeFinder::PointQuadrature {
     PointSums sums;
     for_points_of(cell, divisions, [&](const Vec3& x, double weight) {
       const double seen = weight * see(x, weight, sums.moments);
-      sums.add(seen, is_free_ ? seen : weight * free_view_.form_factor(x, sampled_.normal));
+      sums.seen += seen;
+      sums.free += is_free_ ? seen : weight * free_view_.form_factor(x, sampled_.normal);
     });
     return sums;
   }
@@ -141,8 +142,8 @@ class ExchangeFinder::PointQuadrature {
     PointSums sums;
     for (const Vec3& corner : cell) {
       const Vec3 x = corner + off_edges * (middle - corner);
-      sums.add(weight * view_.form_factor(x, sampled_.normal, query_.tick),
-               weight * free_view_.form_factor(x, sampled_.normal));
+      sums.seen += weight * view_.form_factor(x, sampled_.normal, query_.tick);
+      sums.free += weight * free_view_.form_factor(x, sampled_.normal);
     }
     return sums;
   }
@@ -287,9 +288,7 @@ double ExchangeFinder::seen_by_enough(PointQuadrature& by_points, RefinedCells& 
         const auto seen_of = [&](const PointSums& found) {
           return found.free > 0 ? std::min(1.0, found.seen / found.free) * free : 0;
         };
-        const double spread = std::max(inside.most_part, near.most_part) -
-                              std::min(inside.least_part, near.least_part);
-        return AdaptivePoints::Seen{seen_of(inside), seen_of(near), std::max(spread, 0.0) * free};
+        return AdaptivePoints::Seen{seen_of(inside), seen_of(near)};
       },
       tolerated);
   return std::min(adaptive(cell, divisions), exact);

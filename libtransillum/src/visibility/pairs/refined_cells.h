@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <functional>
 #include <vector>
@@ -15,19 +14,6 @@ namespace transillum {
 struct PointSums {
   double seen = 0, free = 0;
   std::array<double, 2> moments{};  ///< `seen` with phi_1 and phi_2 of a receiver as factors, m²
-  /// Of what single points would see, the smallest and the largest part that they do see.
-  double least_part = 1, most_part = 0;
-
-  /// Adds a point.
-  void add(double seen_there, double free_there) {
-    seen += seen_there;
-    free += free_there;
-    if (free_there > 0) {
-      const double part = std::min(1.0, seen_there / free_there);
-      least_part = std::min(least_part, part);
-      most_part = std::max(most_part, part);
-    }
-  }
 };
 
 /// The exchange past blockers of cells near which the other polygon is so close that points, evenly
