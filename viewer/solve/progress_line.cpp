@@ -299,7 +299,7 @@ void ProgressLine::set_steps(int steps) {
   if (steps == 0) {
     return;
   }
-  // The style would stop it only when it draws a step that is done.
+  // The style stops the movement only when it draws a step that is done.
   qDeleteAll(bar_->findChildren<QAbstractAnimation*>());
 }
 

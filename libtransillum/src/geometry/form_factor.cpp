@@ -98,8 +98,8 @@ EdgeSum exchange_by_edges(Outline p, Outline q) {
   return sum;
 }
 
-/// exchange_of_small() for any p, in triangles divided until the integral does not change, or only
-/// by what is nothing beside rounding.
+/// exchange_of_small() for any p, in triangles divided until the integral does not change, or by
+/// less than rounding.
 double exchange_of_divided(Outline p, const Vec3& normal, Outline q, int most_divisions) {
   constexpr double converged = 1e-10, nothing = 1e-15;
   double sum = 0;

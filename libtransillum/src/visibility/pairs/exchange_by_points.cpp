@@ -148,14 +148,14 @@ class ExchangeFinder::PointQuadrature {
     return sums;
   }
 
-  /// The error of what a cell exchanges by the next larger sum, as two sums may agree by chance:
-  /// from the part that is seen by half of the divisions and by a quarter of them, or by the
-  /// corners where there is one division.
+  /// A second estimate of the error of a cell's exchange, as two sums may agree by chance: from the
+  /// parts seen with half of the divisions and with a quarter of them; with one division, from the
+  /// center and the corners.
   /// @param half by half of the divisions
   /// @param exact without blockers
   double error_of_fewer(Outline cell, int divisions, const PointSums& half, double exact) {
     const PointSums least = divisions > 1 ? (*this)(cell, divisions / 4) : near_corners(cell);
-    // Each halving of the distance between points leaves a quarter of the error.
+    // Half the distance between points leaves a quarter of the error.
     return exact * (part_seen(half) - part_seen(least)) / 12;
   }
 
